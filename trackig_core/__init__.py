@@ -1,0 +1,43 @@
+"""Insertion gain of railway track supports: one wheel, one rail, a row of pads, blocks and boots.
+
+The model of Thornely-Taylor, Bewes and Sica (2021), "A simplified model for calculating the insertion
+gain of track support systems using the finite difference method". SI units throughout.
+
+The one rule: what a user may rely on is named here; the modules below may change.
+"""
+
+from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
+from trackig_core.catalogue import PRESETS, RAILS
+from trackig_core.design import DesignError, Rail, TrackDesign
+from trackig_core.gain import insertion_gain
+from trackig_core.grid import RunTooLargeError
+from trackig_core.results import (
+    ForceSpectrum,
+    InsertionGain,
+    NaturalFrequencies,
+    Solution,
+    TimeHistory,
+)
+from trackig_core.simulate import SolveCancelled
+from trackig_core.solver import compile_kernels, solve
+
+__all__ = [
+    "BAND_CENTRES",
+    "BAND_EDGES",
+    "BAND_LABELS",
+    "PRESETS",
+    "RAILS",
+    "DesignError",
+    "ForceSpectrum",
+    "InsertionGain",
+    "NaturalFrequencies",
+    "Rail",
+    "RunTooLargeError",
+    "Solution",
+    "SolveCancelled",
+    "TimeHistory",
+    "TrackDesign",
+    "compile_kernels",
+    "insertion_gain",
+    "solve",
+]

@@ -1,0 +1,44 @@
+"""One-third-octave bands and decibels.
+
+Base-ten bands of IEC 61260-1:2014: exact mid-band frequencies (section 5.4), nominal
+frequencies (annex E) and band edges (section 5.5). Frequencies in Hz, levels in dB.
+
+The one rule: every band quantity in the package uses the arrays below, so that a band
+means the same everywhere.
+"""
+
+import numpy as np
+
+BAND_NUMBERS = np.arange(7, 28)
+"""Numbers n of the bands from 5 Hz to 500 Hz (21,) [-]."""
+
+BAND_CENTRES = 10.0 ** (BAND_NUMBERS / 10)
+"""Exact mid-band frequencies, 10**(n/10) (21,) [Hz]; IEC 61260-1, 5.4 with b = 3."""
+
+BAND_EDGES = 10.0 ** ((np.append(BAND_NUMBERS, BAND_NUMBERS[-1] + 1) - 0.5) / 10)
+"""Edges between neighbouring bands, centre times 10**(+-1/20) (22,) [Hz]; IEC 61260-1, 5.5."""
+
+BAND_LABELS = (
+    "5", "6.3", "8", "10", "12.5", "16", "20", "25", "31.5", "40", "50",
+    "63", "80", "100", "125", "160", "200", "250", "315", "400", "500",
+)  # fmt: skip
+"""Nominal mid-band frequencies as engineers write them [Hz]; IEC 61260-1, annex E."""
+
+for _array in (BAND_NUMBERS, BAND_CENTRES, BAND_EDGES):
+    _array.flags.writeable = False
+
+
+def decibels(ratio):
+    """Return the level of a ratio of energies.
+
+    Parameters
+    ----------
+    ratio : array_like
+        Ratio of two energy-like quantities [-], greater than zero.
+
+    Returns
+    -------
+    numpy.ndarray
+        10 log10(ratio) [dB], of the same shape.
+    """
+    return 10 * np.log10(ratio)

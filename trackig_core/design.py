@@ -1,0 +1,214 @@
+"""A track as its designer names it: one rail, one wheel, and a row of supports.
+
+SI units: N/m, kg, m, N m2; loss factors have no unit. Stiffnesses are dynamic stiffnesses at
+50 Hz. Source of the model: Thornely-Taylor, Bewes and Sica (2021), "A simplified model for
+calculating the insertion gain of track support systems using the finite difference method".
+
+The one rule: a design that exists is valid. Every value is checked when the object is made, the
+objects never change, and equal designs are equal keys.
+"""
+
+import dataclasses
+import difflib
+import math
+import numbers
+from dataclasses import dataclass
+
+REFERENCE_FREQUENCY = 50.0
+"""Frequency at which a pad's or boot's dynamic stiffness is stated [Hz]; the paper, section on damping."""
+
+RANGES = {
+    "mass_per_metre": (10.0, 200.0, "kg/m"),
+    "bending_stiffness": (1e5, 1e8, "N m2"),
+    "pad_stiffness": (1e5, 1e13, "N/m"),
+    "pad_loss_factor": (0.0, 0.5, ""),
+    "block_mass": (1.0, 1e4, "kg"),
+    "boot_stiffness": (1e5, 1e13, "N/m"),
+    "boot_loss_factor": (0.0, 0.5, ""),
+    "fastener_spacing": (0.1, 2.0, "m"),
+    "wheel_mass": (10.0, 1e4, "kg"),
+    "contact_stiffness": (1e6, 1e14, "N/m"),
+}
+"""Lowest and highest value, and unit, of each number: wide enough for any support that has been built and
+for the very stiff tracks that stand in for a rigid one, narrow enough to catch a slip of units."""
+
+
+class DesignError(ValueError):
+    """A design has a value that no track can have.
+
+    Attributes
+    ----------
+    field : str
+        Name of the field at fault.
+    value : object
+        The value that was given.
+    allowed : str
+        What may be given instead.
+    """
+
+    def __init__(self, field, value, allowed):
+        self.field, self.value, self.allowed = field, value, allowed
+        shown = repr(value)
+        super().__init__(f"{field} = {shown if len(shown) <= 60 else shown[:57] + '...'}: give {allowed}")
+
+
+def check_number(field, value):
+    """Return ``value`` as a float if it is a number within the range of ``field``.
+
+    Parameters
+    ----------
+    field : str
+        A key of :data:`RANGES`.
+    value : object
+        Anything a caller may have given.
+
+    Returns
+    -------
+    float
+        The value [unit of the field].
+
+    Raises
+    ------
+    DesignError
+        If it is not a real, finite number within the range (a bool is not a number).
+    """
+    low, high, unit = RANGES[field]
+    allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise DesignError(field, value, allowed)
+    try:
+        number = float(value)
+    except OverflowError:
+        raise DesignError(field, value, allowed) from None
+    if not (math.isfinite(number) and low <= number <= high):
+        raise DesignError(field, value, allowed)
+    return number
+
+
+@dataclass(frozen=True)
+class Rail:
+    """A rail section, bending vertically.
+
+    Parameters
+    ----------
+    name : str
+        Name of the section.
+    mass_per_metre : float
+        Mass per metre [kg/m].
+    bending_stiffness : float
+        Young's modulus times second moment of area, EI [N m2].
+
+    Raises
+    ------
+    DesignError
+        If a value is out of its range.
+    """
+
+    name: str
+    mass_per_metre: float
+    bending_stiffness: float
+
+    def __post_init__(self):
+        """Check every value once."""
+        if not isinstance(self.name, str) or not 1 <= len(self.name) <= 40:
+            raise DesignError("name", self.name, "a name of 1 to 40 characters")
+        for field in ("mass_per_metre", "bending_stiffness"):
+            object.__setattr__(self, field, check_number(field, getattr(self, field)))
+
+
+PAPER_RAIL = Rail("60", mass_per_metre=60.0, bending_stiffness=210e9 * 3038e-8)
+"""The paper's rail: 60 kg/m (Table 1) with the second moment of 60E1, 3038 cm4, and E = 210 GPa."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrackDesign:
+    """One wheel on one rail on a row of equal supports on rigid ground.
+
+    A two-stage track has pads, blocks (or sleeper ends) and boots; a single-stage track has pads
+    only, and None for ``block_mass``, ``boot_stiffness`` and ``boot_loss_factor``.
+
+    Parameters
+    ----------
+    pad_stiffness : float
+        Dynamic stiffness of a rail pad at 50 Hz [N/m].
+    pad_loss_factor : float
+        Loss factor of the rail pad [-].
+    block_mass : float or None
+        Mass of a block or sleeper end [kg].
+    boot_stiffness : float or None
+        Dynamic stiffness of a boot at 50 Hz [N/m].
+    boot_loss_factor : float or None
+        Loss factor of the boot [-].
+    fastener_spacing : float
+        Distance between supports [m].
+    wheel_mass : float
+        Unsprung mass on one rail [kg].
+    rail : Rail
+        Rail section.
+    contact_stiffness : float
+        Linearised Hertzian contact stiffness [N/m].
+
+    Raises
+    ------
+    DesignError
+        If a value is not a number within its range, or a block comes without a boot.
+    """
+
+    pad_stiffness: float
+    pad_loss_factor: float
+    block_mass: float | None = None
+    boot_stiffness: float | None = None
+    boot_loss_factor: float | None = None
+    fastener_spacing: float
+    wheel_mass: float
+    rail: Rail = PAPER_RAIL
+    contact_stiffness: float = 1.2e9
+
+    def __post_init__(self):
+        """Check every value once."""
+        second_stage = ("block_mass", "boot_stiffness", "boot_loss_factor")
+        given = [field for field in second_stage if getattr(self, field) is not None]
+        if 0 < len(given) < len(second_stage):
+            missing = next(field for field in second_stage if field not in given)
+            raise DesignError(
+                missing,
+                None,
+                f"a number too, or leave out {' and '.join(given)}: "
+                "block mass, boot stiffness and boot loss factor come together",
+            )
+        if not isinstance(self.rail, Rail):
+            raise DesignError("rail", self.rail, "a Rail, such as RAILS['60']")
+        for field in RANGES.keys() & {each.name for each in dataclasses.fields(self)}:
+            if getattr(self, field) is not None or field not in second_stage:
+                object.__setattr__(self, field, check_number(field, getattr(self, field)))
+
+    @property
+    def two_stage(self) -> bool:
+        """Whether blocks and boots stand between pads and ground."""
+        return self.block_mass is not None
+
+    def replace(self, **changes):
+        """Return a copy of this design with some fields changed.
+
+        Parameters
+        ----------
+        **changes
+            New values by field name [unit of the field].
+
+        Returns
+        -------
+        TrackDesign
+            The changed, newly checked design.
+
+        Raises
+        ------
+        DesignError
+            If a field does not exist or a value is not allowed.
+        """
+        names = [each.name for each in dataclasses.fields(self)]
+        for field, value in changes.items():
+            if field not in names:
+                near = difflib.get_close_matches(field, names, n=1)
+                hint = f"'{near[0]}'" if near else f"one of {', '.join(names)}"
+                raise DesignError(field, value, f"a field that exists: {hint}")
+        return dataclasses.replace(self, **changes)

@@ -1,0 +1,361 @@
+"""The exact twin: the same lattice solved frequency by frequency, without time stepping.
+
+Blocks are eliminated from each support, and the supported rail is solved in closed form through
+the two waves that decay from bay to bay (Floquet multipliers). What is solved is chosen by a
+:class:`Lattice`: an infinite track or the ring, continuous time or the time-stepping scheme itself
+(its z-transform), with either rule for the damping memory.
+
+Time dependence exp(+i w t); SI units and Hz. Source of the model: the paper (see
+:mod:`trackig_core.design`). The one rule: nothing here is stepped, sampled or fitted: for the lattice
+that it is given, the answer is exact.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trackig_core import kernel
+from trackig_core.relaxation import relaxation
+from trackig_core.results import ForceSpectrum
+
+NEPER = 20 / np.log(10)
+"""Decibels in a factor of e [dB]."""
+
+
+STRAIGHTNESS = 0.05
+"""Bend of a refined spectrum between neighbouring frequencies that is left alone [dB]."""
+
+MOST_HALVINGS = 12
+"""Halvings of an interval after which a peak is taken as resolved [-]: one part in a hundred thousand."""
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Which discrete track the twin solves.
+
+    Parameters
+    ----------
+    elements_per_bay : int
+        Rail elements between supports.
+    bays : int or None
+        Supports around the ring; None for the infinite track.
+    time_step : float or None
+        Time step of the scheme whose z-transform is solved [s]; None for continuous time.
+    memory_order : int
+        Rule of the damping memory in discrete time: 1 (the paper's) or 2.
+    """
+
+    elements_per_bay: int = 3
+    bays: int | None = None
+    time_step: float | None = None
+    memory_order: int = 1
+
+
+INFINITE = Lattice()
+"""The infinite track in continuous time, three elements a bay."""
+
+
+@dataclass(frozen=True, eq=False)
+class Waves:
+    """The supported rail at some frequencies, per unit force on the rail over support 0.
+
+    Attributes
+    ----------
+    frequency : numpy.ndarray (frequencies,) [Hz]
+        Frequencies.
+    frequency_squared : numpy.ndarray (frequencies,) [1/s2]
+        Square of the angular frequency, as the lattice's time stepping sees it.
+    multipliers : numpy.ndarray of complex (2, frequencies) [-]
+        Factor of each wave from bay to bay.
+    amplitudes : numpy.ndarray of complex (2, frequencies) [m/N]
+        Displacement at support s is the sum of amplitude times multiplier to the power |s|.
+    transfer : numpy.ndarray of complex (frequencies,) [N/m]
+        Force into the ground per displacement of the rail over a support.
+    bays : int or None
+        Supports around the ring, or None.
+    """
+
+    frequency: np.ndarray
+    frequency_squared: np.ndarray
+    multipliers: np.ndarray
+    amplitudes: np.ndarray
+    transfer: np.ndarray
+    bays: int | None
+
+    def receptance(self, support=0):
+        """Return the rail displacement over a support per unit force over support 0.
+
+        Parameters
+        ----------
+        support : int or numpy.ndarray of int (supports,)
+            Number of the support, counted from the force.
+
+        Returns
+        -------
+        numpy.ndarray of complex (frequencies,) or (supports, frequencies)
+            Receptance [m/N].
+        """
+        away = np.abs(np.asarray(support))[..., None, None]
+        shape = self.multipliers**away
+        if self.bays is not None:
+            # waves that went round the ring the other way, and any number of times
+            shape = (shape + self.multipliers ** (self.bays - away)) / (1 - self.multipliers**self.bays)
+        return np.sum(self.amplitudes * shape, axis=-2)
+
+    def energy_sum(self):
+        """Return the sum over all supports of the squared receptance (frequencies,) [m2/N2]."""
+        if self.bays is not None:
+            half = np.arange(1, (self.bays + 1) // 2)
+            others = 2 * np.sum(np.abs(self.receptance(half)) ** 2, axis=0)
+            if self.bays % 2 == 0:
+                others = others + np.abs(self.receptance(self.bays // 2)) ** 2
+            return np.abs(self.receptance()) ** 2 + others
+        first, second = self.multipliers
+        a, b = self.amplitudes
+        # sum over all s of q^|s| = (1 + q) / (1 - q)
+        own = np.abs(a) ** 2 * _two_sided(np.abs(first) ** 2) + np.abs(b) ** 2 * _two_sided(
+            np.abs(second) ** 2
+        )
+        return own + 2 * np.real(a * b.conj() * _two_sided(first * second.conj()))
+
+    def coherent_sum(self):
+        """Return the sum over all supports of the receptance (frequencies,) [m/N]; ring and line agree."""
+        return np.sum(self.amplitudes * _two_sided(self.multipliers), axis=0)
+
+
+def _two_sided(ratio):
+    return (1 + ratio) / (1 - ratio)
+
+
+def dynamic_stiffness(law, frequency, lattice=INFINITE):
+    """Return a pad's or boot's complex dynamic stiffness as the lattice sees it.
+
+    Parameters
+    ----------
+    law : Relaxation
+        The pad's or boot's law.
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies [Hz].
+    lattice : Lattice
+        Continuous or discrete time, and the memory's rule.
+
+    Returns
+    -------
+    numpy.ndarray of complex (frequencies,)
+        Dynamic stiffness [N/m].
+    """
+    if lattice.time_step is None:
+        return law.dynamic_stiffness(frequency)
+    stiffness, decay, gain = law.recursion(lattice.time_step, lattice.memory_order)
+    delay = np.exp(-2j * np.pi * frequency * lattice.time_step)
+    # R_n = decay R_{n-1} + gain e_{n-1}
+    return stiffness - sum(
+        (feed * delay / (1 - keep * delay) for keep, feed in zip(decay, gain, strict=True)),
+        start=np.zeros_like(delay),
+    )
+
+
+def waves(design, frequency, lattice=INFINITE):
+    """Solve the supported rail at given frequencies.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz], greater than zero.
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    Waves
+        The two waves per frequency.
+    """
+    frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
+    if lattice.time_step is None:
+        squared = (2 * np.pi * frequency) ** 2
+    else:
+        squared = (2 / lattice.time_step * np.sin(np.pi * frequency * lattice.time_step)) ** 2
+    pad = dynamic_stiffness(relaxation(design.pad_stiffness, design.pad_loss_factor), frequency, lattice)
+    support, transfer = pad, pad
+    if design.two_stage:
+        boot = dynamic_stiffness(
+            relaxation(design.boot_stiffness, design.boot_loss_factor), frequency, lattice
+        )
+        between = pad + boot - design.block_mass * squared
+        support, transfer = pad - pad**2 / between, pad * boot / between
+
+    dx = design.fastener_spacing / lattice.elements_per_bay
+    multipliers = np.empty((2, frequency.size), dtype=complex)
+    amplitudes = np.empty_like(multipliers)
+    kernel.bay_waves(
+        squared,
+        support,
+        design.rail.bending_stiffness / dx**3,
+        design.rail.mass_per_metre * dx,
+        lattice.elements_per_bay,
+        multipliers,
+        amplitudes,
+    )
+    return Waves(frequency, squared, multipliers, amplitudes, transfer, lattice.bays)
+
+
+def receptance(design, frequency, support=0, lattice=INFINITE):
+    """Return the rail displacement over a support per unit force on the rail over support 0.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz].
+    support : int or numpy.ndarray of int (supports,)
+        Number of the support, counted from the force.
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    numpy.ndarray of complex (frequencies,) or (supports, frequencies)
+        Receptance [m/N].
+    """
+    return waves(design, frequency, lattice).receptance(support)
+
+
+def contact_force(design, frequency, lattice=INFINITE):
+    """Return the contact force per unit roughness between wheel and rail.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track and its wheel.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz].
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    numpy.ndarray of complex (frequencies,)
+        Contact force per unit roughness [N/m].
+    """
+    return _contact_force(design, waves(design, frequency, lattice))
+
+
+def _contact_force(design, rail):
+    wheel = -1 / (design.wheel_mass * rail.frequency_squared)
+    return 1 / (1 / design.contact_stiffness + rail.receptance() + wheel)
+
+
+def support_force(design, frequency, support=0, lattice=INFINITE):
+    """Return the force that a support passes into the ground per unit roughness.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track and its wheel.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz].
+    support : int or numpy.ndarray of int (supports,)
+        Number of the support, counted from the wheel.
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    numpy.ndarray of complex (frequencies,) or (supports, frequencies)
+        Force per unit roughness [N/m].
+    """
+    rail = waves(design, frequency, lattice)
+    return _contact_force(design, rail) * rail.transfer * rail.receptance(support)
+
+
+def exact_spectrum(design, frequency, step, lattice=INFINITE):
+    """Return the exact energy spectrum of the force into the ground after a step of roughness.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track and its wheel.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz], ascending and greater than zero.
+    step : float
+        Height of the step [m].
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    ForceSpectrum
+        Energy summed over all supports, at the given frequencies.
+    """
+    rail = waves(design, frequency, lattice)
+    # the step's own spectrum is 1/(i w), in discrete time dt/(1 - exp(-i w dt)): both of magnitude 1/w
+    per_receptance = np.abs(_contact_force(design, rail) * rail.transfer * step) ** 2 / rail.frequency_squared
+    return ForceSpectrum(
+        frequency=rail.frequency,
+        energy=per_receptance * rail.energy_sum(),
+        coherent_energy=per_receptance * np.abs(rail.coherent_sum()) ** 2,
+        step=step,
+    )
+
+
+def resolved_spectrum(design, frequency, step, lattice=INFINITE):
+    """Return an exact spectrum on a frequency axis that is refined until it shows every peak.
+
+    Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
+    by no more than :data:`STRAIGHTNESS`.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track and its wheel.
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies to begin with [Hz], ascending and greater than zero; all are kept.
+    step : float
+        Height of the step [m].
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    ForceSpectrum
+        Energy at the given and the added frequencies.
+    """
+    known = exact_spectrum(design, frequency, step, lattice)
+    rows = np.array([known.frequency, known.energy, known.coherent_energy])
+    left, right = rows[:, :-1], rows[:, 1:]
+    for _ in range(MOST_HALVINGS):
+        between = exact_spectrum(design, (left[0] + right[0]) / 2, step, lattice)
+        middle = np.array([between.frequency, between.energy, between.coherent_energy])
+        rows = np.concatenate([rows, middle], axis=1)
+        ratio = middle[1:] ** 2 / (left[1:] * right[1:])
+        bent = np.abs(np.log(ratio)).max(axis=0) > 2 * STRAIGHTNESS / 10 * np.log(10)
+        if not bent.any():
+            break
+        left, middle, right = left[:, bent], middle[:, bent], right[:, bent]
+        left, right = np.concatenate([left, middle], axis=1), np.concatenate([middle, right], axis=1)
+    rows = rows[:, np.argsort(rows[0])]
+    return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=step)
+
+
+def track_decay_rate(design, frequency, lattice=INFINITE):
+    """Return how fast vibration dies away along the rail: the rate of the wave that lives longest.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz].
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    numpy.ndarray (frequencies,)
+        Track decay rate [dB/m].
+    """
+    longest = np.abs(waves(design, frequency, lattice).multipliers).max(axis=0)
+    return -NEPER * np.log(longest) / design.fastener_spacing

@@ -1,0 +1,192 @@
+"""Natural frequencies: of the loaded track, of the block, and of what they are coupled from.
+
+All with the loss taken out and every stiffness at its dynamic value Re K(f), on the infinite track
+with three elements a bay. Hz. Source: the paper (see :mod:`trackig_core.design`), which reports the
+loaded-track and the coupled-block frequency of each track.
+
+The one rule: every frequency is a root that is bracketed before it is sought. Relaxation stiffens
+with frequency, so the frequency found with the static stiffness lies below the root, and the one
+found with the instantaneous stiffness above.
+"""
+
+import math
+
+import numpy as np
+from scipy.optimize import brentq
+
+from trackig_core import kernel
+from trackig_core.harmonic import INFINITE
+from trackig_core.relaxation import relaxation
+from trackig_core.results import NaturalFrequencies
+
+_MARGIN = 1e-9
+"""Relative margin around a bracket, so that a spring without memory has one too [-]."""
+
+
+_EDGE = 1e-5
+"""Relative distance from a frequency at which the rail's receptance has no bound, within which it drowns in
+rounding [-]."""
+
+
+def natural_frequencies(design):
+    """Return the natural frequencies of a track.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    NaturalFrequencies
+        Frequencies [Hz]; None where a single-stage track has no such mode.
+    """
+    if not design.two_stage:
+        loaded = loaded_track(design)
+        return NaturalFrequencies(loaded, None, loaded, None, cut_on(design))
+    rigid_blocks = design.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
+    pad, boot = _laws(design)
+    return NaturalFrequencies(
+        loaded_track=loaded_track(design),
+        coupled_block=_oscillator(design.block_mass, pad, boot),
+        wheel_on_rigid_blocks=loaded_track(rigid_blocks),
+        block_on_boot=_oscillator(design.block_mass, boot),
+        cut_on=cut_on(design),
+    )
+
+
+def _laws(design):
+    pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
+    boot = relaxation(design.boot_stiffness, design.boot_loss_factor) if design.two_stage else None
+    return pad, boot
+
+
+def _oscillator(mass, *laws):
+    """Return the frequency of a mass [kg] between springs [Hz]: Re K(f) = mass w^2."""
+
+    def natural(stiffnesses):
+        return math.sqrt(sum(stiffnesses) / mass) / (2 * math.pi)
+
+    return _consistent(natural, laws)
+
+
+def cut_on(design):
+    """Return the frequencies at which rail and block of every bay move as one, the wheel away.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    tuple of float
+        One frequency when single-stage, else two, ascending [Hz].
+    """
+    rail_mass = design.rail.mass_per_metre * design.fastener_spacing
+    pad, boot = _laws(design)
+    if boot is None:
+        return (_oscillator(rail_mass, pad),)
+
+    def natural(stiffnesses, sign):
+        k_pad, k_boot = stiffnesses
+        # the two roots of (k_p - m_r x)(k_p + k_b - m_b x) = k_p^2, x = w^2
+        rail, block = k_pad / rail_mass, (k_pad + k_boot) / design.block_mass
+        half = (rail + block) / 2
+        larger = half + math.sqrt((rail - block) ** 2 / 4 + rail * k_pad / design.block_mass)
+        product = rail * k_boot / design.block_mass
+        return math.sqrt(larger if sign > 0 else product / larger) / (2 * math.pi)
+
+    return tuple(_consistent(lambda k, sign=sign: natural(k, sign), (pad, boot)) for sign in (-1, 1))
+
+
+def _consistent(natural, laws):
+    """Return the frequency f [Hz] that ``natural`` gives for the stiffnesses Re K(f)."""
+    low = natural([law.stiffness(0.0) for law in laws]) * (1 - _MARGIN)
+    high = natural([law.instantaneous for law in laws]) * (1 + _MARGIN)
+    return brentq(lambda f: f - natural([law.stiffness(f) for law in laws]), low, high, xtol=1e-9)
+
+
+def loaded_track(design):
+    """Return the bound mode of the wheel on the supported rail.
+
+    The lowest root of 1/k_H + alpha(f) - 1/(m_w w^2) = 0, with alpha the point receptance over a
+    support. It lies below the frequency at which waves begin to run along the track, where alpha
+    grows without bound, so it always exists.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track and its wheel.
+
+    Returns
+    -------
+    float
+        Frequency [Hz].
+    """
+    support = _Support(design)
+
+    def balance(frequency):
+        wheel = -1 / (design.wheel_mass * (2 * math.pi * frequency) ** 2)
+        return 1 / design.contact_stiffness + support.receptance(frequency) + wheel
+
+    waves_begin = support.waves_begin(cut_on(design)[0])
+    top = waves_begin * (1 - _EDGE)
+    if balance(top) <= 0:  # a wheel so light that its mode cannot be told from the cut-on
+        return waves_begin
+    bottom = 0.1 * waves_begin
+    while balance(bottom) >= 0:
+        bottom *= 0.1
+    return brentq(balance, bottom, top, xtol=1e-9)
+
+
+class _Support:
+    """The supported rail without loss, one frequency at a time."""
+
+    def __init__(self, design):
+        self._design = design
+        self._pad, self._boot = _laws(design)
+        dx = design.fastener_spacing / INFINITE.elements_per_bay
+        self._bending = design.rail.bending_stiffness / dx**3
+        self._element_mass = design.rail.mass_per_metre * dx
+        self._per_bay = INFINITE.elements_per_bay
+
+    def _stiffness(self, frequency):
+        """Return the real dynamic stiffness of a support, block included [N/m]."""
+        pad = self._pad.stiffness(frequency)
+        if self._boot is None:
+            return pad
+        inertia = self._design.block_mass * (2 * math.pi * frequency) ** 2
+        below = self._boot.stiffness(frequency) - inertia
+        return pad * below / (pad + below)
+
+    def receptance(self, frequency):
+        """Return the point receptance over a support at a frequency below cut-on [m/N]."""
+        multipliers, amplitudes = np.empty((2, 1), dtype=complex), np.empty((2, 1), dtype=complex)
+        kernel.bay_waves(
+            np.array([(2 * math.pi * frequency) ** 2]),
+            np.array([complex(self._stiffness(frequency))]),
+            self._bending,
+            self._element_mass,
+            self._per_bay,
+            multipliers,
+            amplitudes,
+        )
+        return float(amplitudes.sum().real)
+
+    def waves_begin(self, straight_rail):
+        """Return the lowest frequency at which waves run along the track [Hz].
+
+        There, all supports and the rail move as one. ``straight_rail`` is the same frequency for a rail
+        that does not bend between supports: it is stiffer, so its frequency lies above [Hz].
+        """
+
+        def surplus(frequency):
+            squared = (2 * math.pi * frequency) ** 2
+            rail = kernel.rail_compliance(squared, self._bending, self._element_mass, self._per_bay)
+            return rail - 1 / self._stiffness(frequency)
+
+        # the rail's first own wave that repeats in every bay: r = 2 - 2 cos(2 pi / elements per bay)
+        own = 2 * (1 - math.cos(2 * math.pi / self._per_bay)) * math.sqrt(self._bending / self._element_mass)
+        top = min(straight_rail * (1 + _MARGIN), own / (2 * math.pi) * (1 - _EDGE))
+        return brentq(surplus, 1e-3 * top, top, xtol=1e-12, rtol=1e-14)

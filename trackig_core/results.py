@@ -1,0 +1,191 @@
+"""What the solvers hand on: frozen records of arrays and numbers.
+
+All in SI units. The one rule: records carry results and no behaviour beyond naming them;
+whoever wants another quantity computes it from these fields.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trackig_core.bands import BAND_CENTRES, BAND_LABELS
+
+if TYPE_CHECKING:
+    from trackig_core.design import TrackDesign
+    from trackig_core.grid import Grid
+
+
+@dataclass(frozen=True, eq=False)
+class TimeHistory:
+    """Low-passed, decimated record of one run of the time-stepping solver.
+
+    Attributes
+    ----------
+    time : numpy.ndarray (samples,) [s]
+        Time of each sample; it begins shortly before zero because the low-pass filter looks ahead.
+    support_force : numpy.ndarray (samples, supports) [N]
+        Force that each support of the half ring passes into the ground.
+    multiplicity : numpy.ndarray (supports,) [-]
+        How many supports of the whole ring each column stands for: 1 under the wheel, else 2.
+    rail_displacement, block_displacement : numpy.ndarray (samples,) [m]
+        Displacement of rail and block at the loaded support; ``block_displacement`` is None when
+        single-stage.
+    low_pass : numpy.ndarray (taps,) [-]
+        Coefficients of the low-pass filter, applied at ``time_step``.
+    time_step : float [s]
+        Time step of the run, before decimation.
+    step : float [m]
+        Height of the step that squeezes the contact spring at time zero.
+    steps : int [-]
+        Time steps taken.
+    decayed : bool
+        Whether the low-passed force had decayed by 80 dB at the end of the record.
+    """
+
+    time: np.ndarray
+    support_force: np.ndarray
+    multiplicity: np.ndarray
+    rail_displacement: np.ndarray
+    block_displacement: np.ndarray | None
+    low_pass: np.ndarray
+    time_step: float
+    step: float
+    steps: int
+    decayed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class ForceSpectrum:
+    """Energy spectrum of the force into the ground, summed over the supports.
+
+    Attributes
+    ----------
+    frequency : numpy.ndarray (frequencies,) [Hz]
+        Frequencies, ascending and greater than zero.
+    energy : numpy.ndarray (frequencies,) [N2 s2]
+        Sum over all supports of the squared magnitude of the force's Fourier transform.
+    coherent_energy : numpy.ndarray (frequencies,) [N2 s2]
+        Squared magnitude of the Fourier transform of the summed force.
+    step : float [m]
+        Height of the step in contact compression that excites the track.
+    """
+
+    frequency: np.ndarray
+    energy: np.ndarray
+    coherent_energy: np.ndarray
+    step: float
+
+
+@dataclass(frozen=True, eq=False)
+class InsertionGain:
+    """Insertion gain per one-third-octave band, and the two energies it compares.
+
+    Attributes
+    ----------
+    levels : numpy.ndarray (21,) [dB]
+        Insertion gain; positive where the track amplifies, negative where it isolates.
+    band_energy, reference_energy : numpy.ndarray (21,) [N2 s]
+        Energy of the track and of its reference, integrated over each band.
+    reference : str
+        ``"line"`` (straight line fitted below resonance) or ``"rigid"`` (exact rigid track).
+    summation : str
+        ``"energy"`` (squared support forces summed) or ``"coherent"`` (forces summed, then squared).
+    """
+
+    levels: np.ndarray
+    band_energy: np.ndarray
+    reference_energy: np.ndarray
+    reference: str
+    summation: str
+
+
+@dataclass(frozen=True)
+class NaturalFrequencies:
+    """Natural frequencies of a track [Hz]; None where a single-stage track has no such mode.
+
+    Attributes
+    ----------
+    loaded_track : float
+        Wheel on its contact spring on the supported rail: the bound mode.
+    coupled_block : float or None
+        Block between pad and boot, the rail held.
+    wheel_on_rigid_blocks : float
+        Loaded track with its blocks held still: one half of the uncoupled pair.
+    block_on_boot : float or None
+        Block on its boot alone: the other half of the uncoupled pair.
+    cut_on : tuple of float
+        Frequencies at which the free track (rail and block of one bay) resonates in phase all along.
+    """
+
+    loaded_track: float
+    coupled_block: float | None
+    wheel_on_rigid_blocks: float
+    block_on_boot: float | None
+    cut_on: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Everything that one call of :func:`trackig_core.solve` found out.
+
+    Attributes
+    ----------
+    design : TrackDesign
+        The track that was solved.
+    fidelity : str
+        The solver that was used.
+    gain : InsertionGain
+        Insertion gain and the energies behind it.
+    spectrum : ForceSpectrum
+        Narrow-band energy of the force into the ground.
+    natural_frequencies : NaturalFrequencies
+        Natural frequencies computed from the design.
+    grid : Grid or None
+        Grid in space and time; None when nothing was stepped in time.
+    history : TimeHistory or None
+        Low-passed time record; None when nothing was stepped in time.
+    notes : tuple of str
+        What the user should know: a halved time step, an extended record, a poor damping fit.
+    """
+
+    design: TrackDesign
+    fidelity: str
+    gain: InsertionGain
+    spectrum: ForceSpectrum
+    natural_frequencies: NaturalFrequencies
+    grid: Grid | None = None
+    history: TimeHistory | None = None
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def band_centres(self) -> np.ndarray:
+        """Exact mid-band frequencies (21,) [Hz]."""
+        return BAND_CENTRES
+
+    @property
+    def band_labels(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text (21,) [Hz]."""
+        return BAND_LABELS
+
+    @property
+    def insertion_gain(self) -> np.ndarray:
+        """Insertion gain per band (21,) [dB]."""
+        return self.gain.levels
+
+    @property
+    def time(self) -> np.ndarray | None:
+        """Sample times of the force records (samples,) [s]; None when nothing was stepped in time."""
+        return None if self.history is None else self.history.time
+
+    @property
+    def loaded_support_force(self) -> np.ndarray | None:
+        """Low-passed force into the ground under the wheel (samples,) [N], or None."""
+        return None if self.history is None else self.history.support_force[:, 0]
+
+    @property
+    def total_force(self) -> np.ndarray | None:
+        """Low-passed force into the ground, summed over all supports (samples,) [N], or None."""
+        return None if self.history is None else self.history.support_force @ self.history.multiplicity
