@@ -24,7 +24,7 @@ The one rule: a grid that exists is stable.
 import math
 from dataclasses import dataclass
 
-from trackig_core.relaxation import relaxation
+from trackig_core.relaxation import laws
 
 ELEMENTS_PER_BAY = 3
 """Rail elements between neighbouring supports [-]; the paper."""
@@ -120,7 +120,8 @@ def stable_time_step(design, dx):
     float
         Largest safe time step [s].
     """
-    pad = relaxation(design.pad_stiffness, design.pad_loss_factor).instantaneous
+    pad_law, boot_law = laws(design)
+    pad = pad_law.instantaneous
     element_mass = design.rail.mass_per_metre * dx
     bending = 16 * design.rail.bending_stiffness / (design.rail.mass_per_metre * dx**4)
     rows = [
@@ -128,8 +129,7 @@ def stable_time_step(design, dx):
         2 * design.contact_stiffness / design.wheel_mass,
     ]
     if design.two_stage:
-        boot = relaxation(design.boot_stiffness, design.boot_loss_factor).instantaneous
-        rows.append((2 * pad + boot) / design.block_mass)
+        rows.append((2 * pad + boot_law.instantaneous) / design.block_mass)
     return 2 / math.sqrt(max(rows))
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from trackig_core import kernel
-from trackig_core.relaxation import relaxation
+from trackig_core.relaxation import laws
 from trackig_core.results import ForceSpectrum
 
 NEPER = 20 / np.log(10)
@@ -177,12 +177,11 @@ def waves(design, frequency, lattice=INFINITE):
         squared = (2 * np.pi * frequency) ** 2
     else:
         squared = (2 / lattice.time_step * np.sin(np.pi * frequency * lattice.time_step)) ** 2
-    pad = dynamic_stiffness(relaxation(design.pad_stiffness, design.pad_loss_factor), frequency, lattice)
+    pad_law, boot_law = laws(design)
+    pad = dynamic_stiffness(pad_law, frequency, lattice)
     support, transfer = pad, pad
     if design.two_stage:
-        boot = dynamic_stiffness(
-            relaxation(design.boot_stiffness, design.boot_loss_factor), frequency, lattice
-        )
+        boot = dynamic_stiffness(boot_law, frequency, lattice)
         between = pad + boot - design.block_mass * squared
         support, transfer = pad - pad**2 / between, pad * boot / between
 

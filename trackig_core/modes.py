@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from trackig_core import kernel
 from trackig_core.harmonic import INFINITE
-from trackig_core.relaxation import relaxation
+from trackig_core.relaxation import laws
 from trackig_core.results import NaturalFrequencies
 
 _MARGIN = 1e-9
@@ -45,7 +45,7 @@ def natural_frequencies(design):
         loaded = loaded_track(design)
         return NaturalFrequencies(loaded, None, loaded, None, cut_on(design))
     rigid_blocks = design.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
-    pad, boot = _laws(design)
+    pad, boot = laws(design)
     return NaturalFrequencies(
         loaded_track=loaded_track(design),
         coupled_block=_oscillator(design.block_mass, pad, boot),
@@ -53,12 +53,6 @@ def natural_frequencies(design):
         block_on_boot=_oscillator(design.block_mass, boot),
         cut_on=cut_on(design),
     )
-
-
-def _laws(design):
-    pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
-    boot = relaxation(design.boot_stiffness, design.boot_loss_factor) if design.two_stage else None
-    return pad, boot
 
 
 def _oscillator(mass, *laws):
@@ -84,7 +78,7 @@ def cut_on(design):
         One frequency when single-stage, else two, ascending [Hz].
     """
     rail_mass = design.rail.mass_per_metre * design.fastener_spacing
-    pad, boot = _laws(design)
+    pad, boot = laws(design)
     if boot is None:
         return (_oscillator(rail_mass, pad),)
 
@@ -145,7 +139,7 @@ class _Support:
 
     def __init__(self, design):
         self._design = design
-        self._pad, self._boot = _laws(design)
+        self._pad, self._boot = laws(design)
         dx = design.fastener_spacing / INFINITE.elements_per_bay
         self._bending = design.rail.bending_stiffness / dx**3
         self._element_mass = design.rail.mass_per_metre * dx

@@ -147,6 +147,26 @@ def relaxation(stiffness, loss_factor):
     )
 
 
+def laws(design):
+    """Return the laws of a design's pads and boots.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    pad : Relaxation
+        Law of the pads.
+    boot : Relaxation or None
+        Law of the boots; None when single-stage.
+    """
+    pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
+    boot = relaxation(design.boot_stiffness, design.boot_loss_factor) if design.two_stage else None
+    return pad, boot
+
+
 @lru_cache(maxsize=256)
 def fit_terms(loss_factor):
     """Fit three relaxation terms to a constant loss factor by least squares.

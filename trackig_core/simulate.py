@@ -9,13 +9,14 @@ The one rule: nothing that is not finite leaves this module.
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from scipy.signal import firwin, kaiserord
 
 from trackig_core import kernel
 from trackig_core.grid import DURATION_LIMIT, LONGEST_RECORD, RECORD_RATE
-from trackig_core.relaxation import relaxation
+from trackig_core.relaxation import laws
 from trackig_core.results import TimeHistory
 
 DEFAULT_STEP = 1e-4
@@ -134,44 +135,96 @@ def _has_decayed(samples):
     return bool(np.abs(forces[-window:]).max() <= DECAY * np.abs(forces).max())
 
 
+class State(NamedTuple):
+    """What the kernel changes from step to step, in the order in which it takes it."""
+
+    rail: np.ndarray
+    rail_velocity: np.ndarray
+    block: np.ndarray
+    block_velocity: np.ndarray
+    wheel: np.ndarray
+    pad_memory: np.ndarray
+    boot_memory: np.ndarray
+    compression: np.ndarray
+    pad_force: np.ndarray
+
+
+class Constants(NamedTuple):
+    """What the kernel is given and leaves alone, in the order in which it takes it."""
+
+    time_step: float
+    bending: float
+    pad_stiffness: float
+    pad_decay: np.ndarray
+    pad_gain: np.ndarray
+    boot_stiffness: float
+    boot_decay: np.ndarray
+    boot_gain: np.ndarray
+    element_mass: float
+    block_mass: float
+    wheel_mass: float
+    contact_stiffness: float
+    two_stage: bool
+
+
+def at_rest(design, grid, *, memory_order=1, step=DEFAULT_STEP):
+    """Return a track at rest under a wheel that squeezes its contact spring.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    grid : Grid
+        Its grid.
+    memory_order : int
+        1 for the paper's recursion of the damping memory, 2 for the second-order one.
+    step : float
+        Displacement of the wheel against the contact spring [m].
+
+    Returns
+    -------
+    State, Constants
+        Arguments of :func:`trackig_core.kernel.advance`; shapes and units are given there.
+    """
+    rail = design.rail
+    pad_law, boot_law = laws(design)
+    pad = pad_law.recursion(grid.dt, memory_order)
+    boot = boot_law.recursion(grid.dt, memory_order) if design.two_stage else (0.0, np.zeros(0), np.zeros(0))
+    bays = grid.half_bays
+    state = State(
+        rail=np.zeros((grid.elements_per_bay, bays + 2)),
+        rail_velocity=np.zeros((grid.elements_per_bay, bays)),
+        block=np.zeros(bays),
+        block_velocity=np.zeros(bays),
+        wheel=np.array([step, 0.0]),
+        pad_memory=np.zeros((pad[1].size, bays)),
+        boot_memory=np.zeros((boot[1].size, bays)),
+        compression=np.zeros(bays),
+        pad_force=np.zeros(bays),
+    )
+    constants = Constants(
+        grid.dt,
+        grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
+        *pad,
+        *boot,
+        element_mass=rail.mass_per_metre * grid.dx,
+        block_mass=design.block_mass if design.two_stage else 1.0,
+        wheel_mass=design.wheel_mass,
+        contact_stiffness=design.contact_stiffness,
+        two_stage=design.two_stage,
+    )
+    return state, constants
+
+
 class _Run:
-    """State of one run: what the kernel changes, and the constants that it is given."""
+    """One run under way: the kernel's state, and the samples that the filter still needs."""
 
     def __init__(self, design, grid, memory_order, step):
-        supports = grid.half_bays
-        pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
-        pad_memory = pad.recursion(grid.dt, memory_order)
-        boot_memory = (0.0, np.zeros(0), np.zeros(0))
-        if design.two_stage:
-            boot = relaxation(design.boot_stiffness, design.boot_loss_factor)
-            boot_memory = boot.recursion(grid.dt, memory_order)
-        self._state = (
-            np.zeros((grid.elements_per_bay, supports + 2)),  # rail
-            np.zeros((grid.elements_per_bay, supports)),  # its velocity
-            np.zeros(supports),  # blocks
-            np.zeros(supports),  # their velocity
-            np.array([step, 0.0]),  # wheel: displacement, velocity
-            np.zeros((pad_memory[1].size, supports)),
-            np.zeros((boot_memory[1].size, supports)),
-            np.zeros(supports),  # working space
-            np.zeros(supports),
-        )
-        rail = design.rail
-        self._constants = (
-            grid.dt,
-            grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
-            *pad_memory,
-            *boot_memory,
-            rail.mass_per_metre * grid.dx,
-            design.block_mass if design.two_stage else 1.0,
-            design.wheel_mass,
-            design.contact_stiffness,
-            design.two_stage,
-        )
+        self._state, self._constants = at_rest(design, grid, memory_order=memory_order, step=step)
         self._dt = grid.dt
         self.taps = low_pass(grid.dt)
         self._factor = decimation(grid.dt)
-        self._history = np.zeros((self.taps.size - 1, supports + 2))
+        self._before = np.zeros((self.taps.size - 1, grid.half_bays + 2))
         self.steps_done = 0
 
     def sample_times(self, count):
@@ -181,24 +234,23 @@ class _Run:
 
     def collect(self, steps, progress, cancelled):
         """Take ``steps`` time steps and return their decimated samples (samples, supports + 2)."""
-        before = len(self._history)
-        samples = np.empty((steps // self._factor, self._history.shape[1]))
+        tail, columns = self._before.shape
+        samples = np.empty((steps // self._factor, columns))
+        buffer = np.empty((tail + BLOCK_SAMPLES * self._factor, columns))
         target = self.steps_done + steps
-        buffer = np.empty((before + BLOCK_SAMPLES * self._factor, samples.shape[1]))
         for first in range(0, len(samples), BLOCK_SAMPLES):
             if cancelled is not None and cancelled():
                 raise SolveCancelled("the run was cancelled")
             part = samples[first : first + BLOCK_SAMPLES]
-            block = buffer[: before + len(part) * self._factor]
-            block[:before] = self._history
-            kernel.advance(*self._state, *self._constants, block[before:])
+            block = buffer[: tail + len(part) * self._factor]
+            block[:tail] = self._before
+            kernel.advance(*self._state, *self._constants, block[tail:])
             kernel.decimate(block, self.taps, self._factor, part)
-            self._history = block[len(block) - before :].copy()
-            if not np.isfinite(part[-1]).all():
-                raise FloatingPointError(
-                    f"the run left the finite numbers at {self.steps_done * self._dt:.3g} s"
-                )
+            self._before = block[-tail:].copy()
             self.steps_done += len(part) * self._factor
+            if not np.isfinite(part[-1]).all():
+                time = self.steps_done * self._dt
+                raise FloatingPointError(f"the run left the finite numbers {time:.3g} s after its start")
             if progress is not None:
                 progress(self.steps_done / target)
         return samples
