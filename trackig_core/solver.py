@@ -91,13 +91,10 @@ def solve(
 
 def _exact_spectrum(design, loaded_track):
     """Return the twin's spectrum over all bands and down to where the reference line is anchored."""
-    if not (design.pad_loss_factor or design.boot_loss_factor):
-        raise DesignError(
-            "pad_loss_factor",
-            design.pad_loss_factor,
-            "more than 0 (or a boot that has loss): without any, waves never die along the track "
-            "and the exact spectrum has no bound",
-        )
+    # With a loss-free spring on the ground there is a frequency at which waves never die along the track.
+    last = "boot_loss_factor" if design.two_stage else "pad_loss_factor"
+    if getattr(design, last) == 0:
+        raise DesignError(last, 0.0, "more than 0: without loss the exact spectrum has no bound")
     anchor = LINE_FRACTION * loaded_track
     between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
     below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []

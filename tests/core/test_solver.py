@@ -1,0 +1,185 @@
+"""The door: golden results, the twin, the rigid track, any valid design, and the memory it takes."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import trackig_core as tig
+from tests.core.test_grid import designs
+from trackig_core.grid import RING_BAYS, make_grid
+from trackig_core.harmonic import Lattice, exact_spectrum
+from trackig_core.simulate import simulate
+from trackig_core.spectrum import force_spectrum
+
+BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
+
+
+def in_decibels(energy, reference):
+    return np.abs(10 * np.log10(energy / reference))
+
+
+def test_golden_insertion_gain_of_the_paper_run(golden, solved, preset):
+    case, solution = golden["cases"][preset], solved(preset)
+    assert np.abs(solution.insertion_gain - case["insertion_gain_db"]).max() < 0.005
+    coherent = tig.insertion_gain(
+        solution.spectrum,
+        solution.design,
+        solution.natural_frequencies.loaded_track,
+        reference="rigid",
+        summation="coherent",
+    )
+    assert np.abs(coherent.levels - case["insertion_gain_coherent_rigid_db"]).max() < 0.005
+    assert solution.band_centres == pytest.approx(case["band_hz"], abs=1e-4)
+    assert solution.notes == ()
+
+
+def test_golden_energy_of_the_paper_run(golden, solved, preset):
+    case, spectrum = golden["cases"][preset], solved(preset).spectrum
+    at = np.searchsorted(spectrum.frequency, np.array(case["spectrum_hz"]) - 1e-6)
+    assert spectrum.frequency[at] == pytest.approx(case["spectrum_hz"])
+    expected = case["summed_force_energy_density_for_0p1mm_step"]
+    assert in_decibels(spectrum.energy[at], expected).max() < 1e-3
+
+
+def test_the_run_is_its_own_z_transform(solved, preset):
+    """Every bin up to 500 Hz, energy and coherent, against the twin of the same discrete scheme."""
+    solution = solved(preset)
+    frequency = solution.spectrum.frequency[solution.spectrum.frequency <= 500]
+    twin = exact_spectrum(solution.design, frequency, 1e-4, Lattice(3, RING_BAYS, solution.grid.dt, 1))
+    count = len(frequency)
+    assert in_decibels(solution.spectrum.energy[:count], twin.energy).max() < 1e-3
+    assert in_decibels(solution.spectrum.coherent_energy[:count], twin.coherent_energy).max() < 1e-2
+
+
+def test_a_coarser_run_with_second_order_memory_is_its_own_z_transform():
+    grid = make_grid(BLOCK, time_step=1 / 32768)
+    spectrum = force_spectrum(simulate(BLOCK, grid, memory_order=2))
+    frequency = spectrum.frequency[spectrum.frequency <= 500]
+    twin = exact_spectrum(BLOCK, frequency, 1e-4, Lattice(3, RING_BAYS, grid.dt, 2))
+    assert in_decibels(spectrum.energy[: len(frequency)], twin.energy).max() < 1e-3
+
+
+ordinary_designs = st.builds(
+    tig.TrackDesign,
+    pad_stiffness=st.floats(1e7, 2e9),
+    pad_loss_factor=st.floats(0.05, 0.5),
+    block_mass=st.floats(10, 500),
+    boot_stiffness=st.floats(2e6, 2e8),
+    boot_loss_factor=st.floats(0.05, 0.5),
+    fastener_spacing=st.floats(0.3, 1.0),
+    wheel_mass=st.floats(200, 1500),
+    contact_stiffness=st.floats(2e8, 5e9),
+)
+FEW = settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+
+
+@given(ordinary_designs)
+@FEW
+def test_any_ordinary_run_is_its_own_z_transform(design):
+    solution = tig.solve(design)
+    frequency = solution.spectrum.frequency[solution.spectrum.frequency <= 500]
+    twin = exact_spectrum(design, frequency, 1e-4, Lattice(3, RING_BAYS, solution.grid.dt, 1))
+    assert in_decibels(solution.spectrum.energy[: len(frequency)], twin.energy).max() < 0.01
+
+
+@given(ordinary_designs, st.booleans(), st.floats(0.2, 0.3), st.floats(0.01, 0.05))
+@FEW
+def test_any_valid_design_gives_finite_results(design, single_stage, spacing, loss):
+    design = design.replace(fastener_spacing=spacing, pad_loss_factor=loss)
+    if single_stage:
+        design = design.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
+    solution = tig.solve(design)
+    for values in (solution.insertion_gain, solution.total_force, solution.loaded_support_force):
+        assert np.isfinite(values).all()
+    assert np.ptp(solution.insertion_gain) > 0
+
+
+@given(designs.filter(lambda design: design.boot_loss_factor > 1e-3))
+@settings(max_examples=100, deadline=None)
+def test_any_valid_design_has_a_finite_exact_solution(design):
+    solution = tig.solve(design, "exact")
+    assert np.isfinite(solution.insertion_gain).all()
+    assert solution.time is solution.total_force is solution.grid is None
+
+
+def test_the_exact_solution_is_the_limit_of_the_paper_run(solved, preset):
+    """Refining the step of a second-order run by four leaves 0.01 dB to the exact answer."""
+    design = tig.PRESETS[preset]
+    exact = tig.solve(design, "exact").insertion_gain
+    assert np.abs(solved(preset).insertion_gain - exact).max() < 0.2
+    for choice in ({"reference": "rigid"}, {"summation": "coherent"}):
+        frequencies = solved(preset).natural_frequencies
+        history = simulate(design, make_grid(design), memory_order=2)
+        stepped = tig.insertion_gain(force_spectrum(history), design, frequencies.loaded_track, **choice)
+        assert np.abs(stepped.levels - tig.solve(design, "exact", **choice).insertion_gain).max() < 0.01
+
+
+def test_light_damping_is_resolved_exactly():
+    """Loss factors of 0.01 against a spectrum a hundred times as dense."""
+    for preset in tig.PRESETS.values():
+        design = preset.replace(pad_loss_factor=0.01)
+        if design.two_stage:
+            design = design.replace(boot_loss_factor=0.01)
+        solution = tig.solve(design, "exact")
+        loaded = solution.natural_frequencies.loaded_track
+        dense = exact_spectrum(design, np.geomspace(min(4.4, loaded / 10), 570, 60_000), 1e-4)
+        assert (
+            np.abs(solution.insertion_gain - tig.insertion_gain(dense, design, loaded).levels).max() < 0.005
+        )
+
+
+def test_without_loss_the_exact_solution_is_refused():
+    with pytest.raises(tig.DesignError, match="pad_loss_factor"):
+        tig.solve(SLAB.replace(pad_loss_factor=0.0), "exact")
+    with pytest.raises(tig.DesignError, match="boot_loss_factor"):
+        tig.solve(BLOCK.replace(boot_loss_factor=0.0), "exact")
+    finite = tig.solve(BLOCK.replace(pad_loss_factor=0.0), "exact").insertion_gain
+    assert np.isfinite(finite).all()
+
+
+def test_a_very_stiff_run_falls_on_the_rigid_line():
+    """The paper's stiff reference: supports and contact so stiff that the resonance leaves the bands."""
+    stiff = SLAB.replace(pad_stiffness=5e12, contact_stiffness=5e12)
+    spectrum = force_spectrum(simulate(stiff, make_grid(stiff, bays=101)))
+    gain = tig.insertion_gain(
+        spectrum, stiff, tig.solve(stiff, "exact").natural_frequencies.loaded_track, "rigid"
+    )
+    assert np.abs(gain.levels).max() < 0.1
+    per_octave = np.diff(10 * np.log10(gain.band_energy)) / np.diff(np.log2(tig.BAND_CENTRES))
+    assert per_octave == pytest.approx(np.full(20, 9.03), abs=0.05)
+
+
+def test_insertion_gain_does_not_depend_on_the_height_of_the_step():
+    grid = make_grid(BLOCK)
+    spectra = [force_spectrum(simulate(BLOCK, grid, step=step)) for step in (1e-4, 3e-3)]
+    gains = [tig.insertion_gain(each, BLOCK, 39.0, reference="rigid").levels for each in spectra]
+    assert gains[0] == pytest.approx(gains[1], abs=1e-9)
+
+
+def test_total_force_is_the_sum_over_the_whole_ring(solved):
+    solution = solved("booted-block-low-mass")
+    forces = solution.history.support_force
+    assert solution.total_force == pytest.approx(forces[:, 0] + 2 * forces[:, 1:].sum(axis=1), abs=1e-6)
+    assert solution.loaded_support_force is not None
+    assert len(solution.time) == len(solution.total_force) == 8192
+
+
+MEMORY_SCRIPT = """
+import resource, sys
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+import trackig_core as tig
+for design in tig.PRESETS.values():
+    tig.solve(design)
+after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+print((after - before) / 1024)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="ru_maxrss is in kB only on Linux")
+def test_presets_take_at_most_400_mb_above_the_bare_interpreter():
+    run = subprocess.run([sys.executable, "-c", MEMORY_SCRIPT], capture_output=True, text=True, check=True)
+    assert float(run.stdout) < 400
