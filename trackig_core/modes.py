@@ -12,7 +12,7 @@ found with the instantaneous stiffness above.
 import math
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import bisect, brentq
 
 from trackig_core import kernel
 from trackig_core.harmonic import INFINITE
@@ -26,6 +26,10 @@ _MARGIN = 1e-9
 _EDGE = 1e-5
 """Relative distance from a frequency at which the rail's receptance has no bound, within which it drowns in
 rounding [-]."""
+
+
+_STILL = 1e-7
+"""Decay from bay to bay below which a wave counts as running [-]: well above rounding."""
 
 
 def natural_frequencies(design):
@@ -154,8 +158,8 @@ class _Support:
         below = self._boot.stiffness(frequency) - inertia
         return pad * below / (pad + below)
 
-    def receptance(self, frequency):
-        """Return the point receptance over a support at a frequency below cut-on [m/N]."""
+    def _waves(self, frequency):
+        """Return the multipliers and amplitudes (2, 1) of the two waves."""
         multipliers, amplitudes = np.empty((2, 1), dtype=complex), np.empty((2, 1), dtype=complex)
         kernel.bay_waves(
             np.array([(2 * math.pi * frequency) ** 2]),
@@ -166,13 +170,22 @@ class _Support:
             multipliers,
             amplitudes,
         )
-        return float(amplitudes.sum().real)
+        return multipliers, amplitudes
+
+    def receptance(self, frequency):
+        """Return the point receptance over a support at a frequency at which no waves run [m/N]."""
+        return float(self._waves(frequency)[1].sum().real)
+
+    def dies_away(self, frequency):
+        """Return whether both waves decay from bay to bay."""
+        return bool(np.abs(self._waves(frequency)[0]).max() < 1 - _STILL)
 
     def waves_begin(self, straight_rail):
         """Return the lowest frequency at which waves run along the track [Hz].
 
-        There, all supports and the rail move as one. ``straight_rail`` is the same frequency for a rail
-        that does not bend between supports: it is stiffer, so its frequency lies above [Hz].
+        On most tracks all bays then move as one. ``straight_rail`` is the same frequency for a rail that
+        does not bend between supports: it is stiffer, so its frequency lies above [Hz]. On stiff supports
+        far apart shorter waves begin to run before.
         """
 
         def surplus(frequency):
@@ -183,4 +196,9 @@ class _Support:
         # the rail's first own wave that repeats in every bay: r = 2 - 2 cos(2 pi / elements per bay)
         own = 2 * (1 - math.cos(2 * math.pi / self._per_bay)) * math.sqrt(self._bending / self._element_mass)
         top = min(straight_rail * (1 + _MARGIN), own / (2 * math.pi) * (1 - _EDGE))
-        return brentq(surplus, 1e-3 * top, top, xtol=1e-12, rtol=1e-14)
+        as_one = brentq(surplus, 1e-3 * top, top, xtol=1e-12, rtol=1e-14)
+        if self.dies_away(as_one * (1 - _EDGE)):
+            return as_one
+        return bisect(
+            lambda f: 1.0 if self.dies_away(f) else -1.0, 1e-3 * as_one, as_one * (1 - _EDGE), rtol=1e-9
+        )
