@@ -8,9 +8,13 @@ The one rule: what a user may rely on is named here; the modules below may chang
 
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.catalogue import PRESETS, RAILS
+from trackig_core.convergence import element_errors, time_step_errors
 from trackig_core.design import DesignError, Rail, TrackDesign
 from trackig_core.gain import insertion_gain
 from trackig_core.grid import RunTooLargeError
+from trackig_core.harmonic import Lattice, receptance, track_decay_rate
+from trackig_core.measured import LossFactorCurve, MeasurementError, StiffnessCurve
+from trackig_core.peer import PeerReceptance, peer_receptances
 from trackig_core.results import (
     ForceSpectrum,
     InsertionGain,
@@ -30,14 +34,24 @@ __all__ = [
     "DesignError",
     "ForceSpectrum",
     "InsertionGain",
+    "Lattice",
+    "LossFactorCurve",
+    "MeasurementError",
     "NaturalFrequencies",
+    "PeerReceptance",
     "Rail",
     "RunTooLargeError",
     "Solution",
     "SolveCancelled",
+    "StiffnessCurve",
     "TimeHistory",
     "TrackDesign",
     "compile_kernels",
+    "element_errors",
     "insertion_gain",
+    "peer_receptances",
+    "receptance",
     "solve",
+    "time_step_errors",
+    "track_decay_rate",
 ]

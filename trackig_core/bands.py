@@ -24,6 +24,10 @@ BAND_LABELS = (
 )  # fmt: skip
 """Nominal mid-band frequencies as engineers write them [Hz]; IEC 61260-1, annex E."""
 
+LINE_FRACTION = 0.1
+"""Frequency at which the straight reference line touches the spectrum, in parts of the loaded-track frequency
+[-]: well below the resonance, where every track still follows its wheel."""
+
 for _array in (BAND_NUMBERS, BAND_CENTRES, BAND_EDGES):
     _array.flags.writeable = False
 

@@ -14,17 +14,22 @@ import math
 import numbers
 from dataclasses import dataclass
 
+from trackig_core.measured import LossFactorCurve, StiffnessCurve
+
 REFERENCE_FREQUENCY = 50.0
 """Frequency at which a pad's or boot's dynamic stiffness is stated [Hz]; the paper, section on damping."""
+
+DEFAULT_STEP = 1e-4
+"""Step of roughness that squeezes the contact spring [m]; insertion gain does not depend on it."""
 
 RANGES = {
     "mass_per_metre": (10.0, 200.0, "kg/m"),
     "bending_stiffness": (1e5, 1e8, "N m2"),
     "pad_stiffness": (1e5, 1e13, "N/m"),
-    "pad_loss_factor": (0.0, 0.5, ""),
+    "pad_loss_factor": (0.0, 1.0, ""),
     "block_mass": (1.0, 1e4, "kg"),
     "boot_stiffness": (1e5, 1e13, "N/m"),
-    "boot_loss_factor": (0.0, 0.5, ""),
+    "boot_loss_factor": (0.0, 1.0, ""),
     "fastener_spacing": (0.1, 2.0, "m"),
     "wheel_mass": (10.0, 1e4, "kg"),
     "contact_stiffness": (1e6, 1e14, "N/m"),
@@ -129,16 +134,17 @@ class TrackDesign:
 
     Parameters
     ----------
-    pad_stiffness : float
-        Dynamic stiffness of a rail pad at 50 Hz [N/m].
-    pad_loss_factor : float
-        Loss factor of the rail pad [-].
+    pad_stiffness : float or StiffnessCurve
+        Dynamic stiffness of a rail pad at 50 Hz [N/m], or as measured over frequency.
+    pad_loss_factor : float or LossFactorCurve or None
+        Loss factor of the rail pad [-], or as measured over frequency; None with a StiffnessCurve, which
+        has its own.
     block_mass : float or None
         Mass of a block or sleeper end [kg].
-    boot_stiffness : float or None
-        Dynamic stiffness of a boot at 50 Hz [N/m].
-    boot_loss_factor : float or None
-        Loss factor of the boot [-].
+    boot_stiffness : float or StiffnessCurve or None
+        Dynamic stiffness of a boot at 50 Hz [N/m], or as measured over frequency.
+    boot_loss_factor : float or LossFactorCurve or None
+        Loss factor of the boot, as for the pad.
     fastener_spacing : float
         Distance between supports [m].
     wheel_mass : float
@@ -154,11 +160,11 @@ class TrackDesign:
         If a value is not a number within its range, or a block comes without a boot.
     """
 
-    pad_stiffness: float
-    pad_loss_factor: float
+    pad_stiffness: float | StiffnessCurve
+    pad_loss_factor: float | LossFactorCurve | None
     block_mass: float | None = None
-    boot_stiffness: float | None = None
-    boot_loss_factor: float | None = None
+    boot_stiffness: float | StiffnessCurve | None = None
+    boot_loss_factor: float | LossFactorCurve | None = None
     fastener_spacing: float
     wheel_mass: float
     rail: Rail = PAPER_RAIL
@@ -166,21 +172,43 @@ class TrackDesign:
 
     def __post_init__(self):
         """Check every value once."""
-        second_stage = ("block_mass", "boot_stiffness", "boot_loss_factor")
-        given = [field for field in second_stage if getattr(self, field) is not None]
-        if 0 < len(given) < len(second_stage):
-            missing = next(field for field in second_stage if field not in given)
-            raise DesignError(
-                missing,
-                None,
-                f"a number too, or leave out {' and '.join(given)}: "
-                "block mass, boot stiffness and boot loss factor come together",
-            )
+        self._check_stages()
         if not isinstance(self.rail, Rail):
             raise DesignError("rail", self.rail, "a Rail, such as RAILS['60']")
-        for field in RANGES.keys() & {each.name for each in dataclasses.fields(self)}:
-            if getattr(self, field) is not None or field not in second_stage:
-                object.__setattr__(self, field, check_number(field, getattr(self, field)))
+        for field in ("fastener_spacing", "wheel_mass", "contact_stiffness"):
+            self._check(field)
+        self._check_spring("pad")
+        if self.two_stage:
+            self._check("block_mass")
+            self._check_spring("boot")
+
+    def _check(self, field):
+        object.__setattr__(self, field, check_number(field, getattr(self, field)))
+
+    def _check_spring(self, part):
+        """Check stiffness and loss factor of the pad or the boot."""
+        stiffness, loss_factor = f"{part}_stiffness", f"{part}_loss_factor"
+        if isinstance(getattr(self, stiffness), StiffnessCurve):
+            if getattr(self, loss_factor) is not None:
+                allowed = f"None: the measured {part} stiffness has loss factors of its own"
+                raise DesignError(loss_factor, getattr(self, loss_factor), allowed)
+            return
+        self._check(stiffness)
+        if not isinstance(getattr(self, loss_factor), LossFactorCurve):
+            self._check(loss_factor)
+
+    def _check_stages(self):
+        """Check that block and boot come together or not at all."""
+        given = {field: getattr(self, field) is not None for field in ("block_mass", "boot_stiffness")}
+        if any(given.values()) or self.boot_loss_factor is not None:
+            given["boot_loss_factor"] = self.boot_loss_factor is not None or isinstance(
+                self.boot_stiffness, StiffnessCurve
+            )
+        if any(given.values()) and not all(given.values()):
+            missing = next(field for field, is_given in given.items() if not is_given)
+            others = " and ".join(field for field, is_given in given.items() if is_given)
+            together = "block mass, boot stiffness and boot loss factor come together"
+            raise DesignError(missing, None, f"a value too, or leave out {others}: {together}")
 
     @property
     def two_stage(self) -> bool:

@@ -9,7 +9,7 @@ The one rule: bands are integrated to their exact edges, whatever the spacing of
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from trackig_core.bands import BAND_EDGES, decibels
+from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
 from trackig_core.results import InsertionGain
 
 REFERENCES = ("line", "rigid")
@@ -17,9 +17,6 @@ REFERENCES = ("line", "rigid")
 
 SUMMATIONS = ("energy", "coherent")
 """Sums over the supports: of squared forces (the paper), or of forces."""
-
-LINE_FRACTION = 0.1
-"""Frequency at which the reference line touches the spectrum, in parts of the loaded-track frequency [-]."""
 
 
 def insertion_gain(spectrum, design, loaded_track, reference="line", summation="energy"):
@@ -54,8 +51,9 @@ def insertion_gain(spectrum, design, loaded_track, reference="line", summation="
     energy = spectrum.energy if summation == "energy" else spectrum.coherent_energy
     frequency = spectrum.frequency
     if reference == "line":
-        # E grows as f^2 here: E / f^2 is flat, so it may be interpolated between bins
-        height = np.interp(LINE_FRACTION * loaded_track, frequency, energy / frequency**2)
+        # E grows as f^2 here: E / f^2 is nearly flat, so it may be interpolated between bins
+        anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
+        height = float(CubicSpline(frequency, energy / frequency**2)(anchor))
     else:
         # E = (m_w w^2 step)^2 / w^2
         height = (2 * np.pi * design.wheel_mass * spectrum.step) ** 2

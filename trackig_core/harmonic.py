@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from trackig_core import kernel
+from trackig_core.bands import BAND_EDGES, LINE_FRACTION
+from trackig_core.design import DEFAULT_STEP
 from trackig_core.relaxation import laws
 from trackig_core.results import ForceSpectrum
 
@@ -270,6 +272,25 @@ def support_force(design, frequency, support=0, lattice=INFINITE):
     return _contact_force(design, rail) * rail.transfer * rail.receptance(support)
 
 
+def block_to_rail(design, frequency):
+    """Return how much a block moves per movement of the rail above it, in continuous time.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        A two-stage track.
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies [Hz].
+
+    Returns
+    -------
+    numpy.ndarray (frequencies,)
+        Magnitude of block over rail displacement [-].
+    """
+    pad, boot = (law.dynamic_stiffness(frequency) for law in laws(design))
+    return np.abs(pad / (pad + boot - design.block_mass * (2 * np.pi * frequency) ** 2))
+
+
 def exact_spectrum(design, frequency, step, lattice=INFINITE):
     """Return the exact energy spectrum of the force into the ground after a step of roughness.
 
@@ -337,6 +358,31 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
         left, right = np.concatenate([left, middle], axis=1), np.concatenate([middle, right], axis=1)
     rows = rows[:, np.argsort(rows[0])]
     return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=step)
+
+
+def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
+    """Return the exact spectrum over all one-third-octave bands, and down to where the line is anchored.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track and its wheel.
+    loaded_track : float
+        Its loaded-track frequency [Hz].
+    lattice : Lattice
+        What to solve.
+    step : float
+        Height of the step [m].
+
+    Returns
+    -------
+    ForceSpectrum
+        Energy at frequencies that resolve every peak and include every band edge.
+    """
+    anchor = LINE_FRACTION * loaded_track
+    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
+    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
+    return resolved_spectrum(design, np.concatenate([below, between]), step, lattice)
 
 
 def track_decay_rate(design, frequency, lattice=INFINITE):

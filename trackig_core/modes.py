@@ -12,12 +12,16 @@ found with the instantaneous stiffness above.
 import math
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 from scipy.optimize import bisect, brentq
 
 from trackig_core import kernel
 from trackig_core.harmonic import INFINITE
 from trackig_core.relaxation import laws
 from trackig_core.results import NaturalFrequencies
+
+PEAK_REACH = 1.7
+"""How far above and below a computed natural frequency its peak is looked for [-]."""
 
 _MARGIN = 1e-9
 """Relative margin around a bracket, so that a spring without memory has one too [-]."""
@@ -136,6 +140,31 @@ def loaded_track(design):
     while balance(bottom) >= 0:
         bottom *= 0.1
     return brentq(balance, bottom, top, xtol=1e-9)
+
+
+def peak_near(frequency, magnitude, near):
+    """Return where a response peaks in the octave and a half around a frequency.
+
+    Parameters
+    ----------
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies [Hz], ascending.
+    magnitude : numpy.ndarray (frequencies,)
+        Response at those frequencies, greater than zero.
+    near : float
+        Frequency around which to look [Hz].
+
+    Returns
+    -------
+    float or None
+        Frequency of the highest peak [Hz], refined between points; None if there is none inside.
+    """
+    inside = (frequency > near / PEAK_REACH) & (frequency < near * PEAK_REACH)
+    if np.count_nonzero(inside) < 5:
+        return None
+    curve = CubicSpline(np.log(frequency[inside]), np.log(magnitude[inside]))
+    peaks = [root for root in curve.derivative().roots(extrapolate=False) if curve(root, 2) < 0]
+    return float(np.exp(max(peaks, key=curve))) if peaks else None
 
 
 class _Support:

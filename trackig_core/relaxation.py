@@ -19,10 +19,17 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from trackig_core.design import REFERENCE_FREQUENCY
+from trackig_core.measured import LossFactorCurve, StiffnessCurve
 
 FIT_FREQUENCIES = np.geomspace(5.0, 500.0, 100)
 """Frequencies at which the fitted loss factor is compared with its target (100,) [Hz]."""
 FIT_FREQUENCIES.flags.writeable = False
+
+_BOUNDS = (np.log([1e-9] * 3 + [1e-6] * 3), np.log([1e4] * 3 + [1e2] * 3))
+"""Least and greatest logarithm of strengths over static stiffness and mean loss factor [-], of times [s]."""
+
+NEGLIGIBLE = 1e-9
+"""Loss factor below which a spring is taken to have no memory [-]."""
 
 _START_TIMES = (2.2e-2, 2.8e-3, 3.5e-4)
 """Relaxation times from which every fit starts [s]: evenly spaced over the inverse of 5-500 Hz."""
@@ -123,27 +130,29 @@ def _relaxed(frequency, instantaneous, strengths, times):
 
 
 def relaxation(stiffness, loss_factor):
-    """Return the relaxation that has a stated stiffness at 50 Hz and a loss factor from 5 to 500 Hz.
+    """Return the relaxation law of a pad or boot.
 
     Parameters
     ----------
-    stiffness : float
-        Dynamic stiffness at 50 Hz [N/m].
-    loss_factor : float
-        Loss factor wanted [-]; zero gives a spring without memory.
+    stiffness : float or StiffnessCurve
+        Dynamic stiffness at 50 Hz [N/m], or as measured over frequency.
+    loss_factor : float or LossFactorCurve or None
+        Loss factor wanted from 5 to 500 Hz [-]; zero gives a spring without memory. None with a
+        StiffnessCurve.
 
     Returns
     -------
     Relaxation
         The fitted law.
     """
-    strengths, times, worst_error = fit_terms(loss_factor)
-    instantaneous = 1.0 - (_relaxed(REFERENCE_FREQUENCY, 0.0, strengths, times)).real
+    if isinstance(stiffness, StiffnessCurve):
+        return _fit_stiffness(stiffness)
+    shape = fit_loss_factor(loss_factor)
     return Relaxation(
-        stiffness * instantaneous,
-        tuple(stiffness * strength for strength in strengths),
-        times,
-        worst_error,
+        stiffness * shape.instantaneous,
+        tuple(stiffness * strength for strength in shape.strengths),
+        shape.times,
+        shape.worst_error,
     )
 
 
@@ -168,42 +177,81 @@ def laws(design):
 
 
 @lru_cache(maxsize=256)
-def fit_terms(loss_factor):
-    """Fit three relaxation terms to a constant loss factor by least squares.
+def fit_loss_factor(loss_factor):
+    """Fit three relaxation terms to a loss factor by least squares.
 
-    The sum over :data:`FIT_FREQUENCIES` of squared relative errors of the loss factor is made
-    smallest, over the logarithms of times and strengths so that both stay positive.
+    The sum over :data:`FIT_FREQUENCIES` of squared relative errors of the loss factor is made smallest.
 
     Parameters
     ----------
-    loss_factor : float
+    loss_factor : float or LossFactorCurve
         Target loss factor [-], zero or more.
 
     Returns
     -------
-    strengths : tuple of float
-        Strength of each term relative to the stiffness at 50 Hz [-], slowest term first.
-    times : tuple of float
-        Relaxation times [s], slowest first.
-    worst_error : float
-        Largest relative error of the loss factor [-].
+    Relaxation
+        The law, for a stiffness of 1 N/m at 50 Hz; slowest term first.
     """
-    if loss_factor == 0:
-        return (), (), 0.0
+    if isinstance(loss_factor, LossFactorCurve):
+        target = loss_factor.loss_factor(FIT_FREQUENCIES)
+    elif loss_factor < NEGLIGIBLE:
+        return Relaxation(1.0, (), (), 0.0)
+    else:
+        target = np.full_like(FIT_FREQUENCIES, loss_factor)
+    return _scaled(_fit(lambda law: law.loss_factor(FIT_FREQUENCIES) / target - 1, target.mean()), 1.0)
 
-    def relative_errors(logarithms):
-        strengths, times = np.exp(logarithms[:3]), np.exp(logarithms[3:])
-        terms = _relaxed(FIT_FREQUENCIES, 0.0, strengths, times)
-        at_reference = _relaxed(REFERENCE_FREQUENCY, 0.0, strengths, times).real
-        # terms = -sum k_j/(1 + i w tau_j), normalised so that Re K(50 Hz) = 1
-        return terms.imag / (1.0 - at_reference + terms.real) / loss_factor - 1.0
 
-    start = np.log([1.2 * loss_factor, 1.2 * loss_factor, 2.0 * loss_factor, *_START_TIMES])
-    fit = least_squares(relative_errors, start, method="lm", xtol=1e-12, ftol=1e-12, gtol=1e-12)
-    strengths, times = np.exp(fit.x[:3]), np.exp(fit.x[3:])
-    order = np.argsort(-times)
-    return (
-        tuple(float(value) for value in strengths[order]),
-        tuple(float(value) for value in times[order]),
-        float(np.max(np.abs(fit.fun))),
+@lru_cache(maxsize=256)
+def _fit_stiffness(curve):
+    """Fit three relaxation terms to measured stiffness and loss factor, errors of both weighed alike.
+
+    Beyond the measured frequencies stiffness is left to follow from the loss factor, as causality asks.
+    """
+    covered = FIT_FREQUENCIES[curve.covers(FIT_FREQUENCIES)]
+    loss_factor = curve.loss_factor(FIT_FREQUENCIES)
+    # A table wholly outside 5-500 Hz still says how stiff the spring is.
+    at = covered if covered.size else np.array([curve.points[0][0]])
+    stiffness = curve.stiffness(at)
+
+    def relative_errors(law):
+        scale = np.exp(np.mean(np.log(stiffness / law.dynamic_stiffness(at).real)))
+        return np.concatenate(
+            [
+                law.loss_factor(FIT_FREQUENCIES) / loss_factor - 1,
+                scale * law.dynamic_stiffness(at).real / stiffness - 1,
+            ]
+        )
+
+    law = _fit(relative_errors, loss_factor.mean())
+    scale = np.exp(np.mean(np.log(stiffness / law.dynamic_stiffness(at).real)))
+    return _scaled(law, float(scale * law.stiffness(REFERENCE_FREQUENCY)))
+
+
+def _scaled(law, stiffness):
+    """Return a law scaled to have a given stiffness at 50 Hz [N/m]."""
+    factor = stiffness / law.stiffness(REFERENCE_FREQUENCY)
+    return Relaxation(
+        factor * law.instantaneous,
+        tuple(factor * strength for strength in law.strengths),
+        law.times,
+        law.worst_error,
     )
+
+
+def _fit(relative_errors, loss_factor):
+    """Return the law of static stiffness 1 N/m that makes the sum of squared errors smallest.
+
+    Times and strengths are sought by their logarithms, so that they stay positive.
+    """
+
+    def law(logarithms, worst_error=0.0):
+        strengths, times = loss_factor * np.exp(logarithms[:3]), np.exp(logarithms[3:])
+        order = np.argsort(-times)
+        strengths, times = (tuple(float(value) for value in each[order]) for each in (strengths, times))
+        return Relaxation(1.0 + sum(strengths), strengths, times, worst_error)
+
+    start = np.log([1.6, 1.8, 3.0, *_START_TIMES])
+    fit = least_squares(
+        lambda x: relative_errors(law(x)), start, bounds=_BOUNDS, xtol=1e-12, ftol=1e-12, gtol=1e-12
+    )
+    return law(fit.x, float(np.max(np.abs(fit.fun))))

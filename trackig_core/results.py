@@ -16,6 +16,7 @@ from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 if TYPE_CHECKING:
     from trackig_core.design import TrackDesign
     from trackig_core.grid import Grid
+    from trackig_core.relaxation import Relaxation
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,6 +119,11 @@ class NaturalFrequencies:
         Block on its boot alone: the other half of the uncoupled pair.
     cut_on : tuple of float
         Frequencies at which the free track (rail and block of one bay) resonates in phase all along.
+    observed_loaded_track : float or None
+        Where the solution's own force spectrum, over frequency squared, peaks near ``loaded_track``; None
+        if it has no peak there or is not resolved so high.
+    observed_coupled_block : float or None
+        Where block over rail displacement at the loaded support peaks near ``coupled_block``; else None.
     """
 
     loaded_track: float
@@ -125,6 +131,8 @@ class NaturalFrequencies:
     wheel_on_rigid_blocks: float
     block_on_boot: float | None
     cut_on: tuple[float, ...]
+    observed_loaded_track: float | None = None
+    observed_coupled_block: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +150,9 @@ class Solution:
     spectrum : ForceSpectrum
         Narrow-band energy of the force into the ground.
     natural_frequencies : NaturalFrequencies
-        Natural frequencies computed from the design.
+        Natural frequencies computed from the design, and those observed in the solution.
+    pad_law, boot_law : Relaxation
+        The fitted damping laws and how well they fit; ``boot_law`` is None when single-stage.
     grid : Grid or None
         Grid in space and time; None when nothing was stepped in time.
     history : TimeHistory or None
@@ -156,6 +166,8 @@ class Solution:
     gain: InsertionGain
     spectrum: ForceSpectrum
     natural_frequencies: NaturalFrequencies
+    pad_law: Relaxation
+    boot_law: Relaxation | None
     grid: Grid | None = None
     history: TimeHistory | None = None
     notes: tuple[str, ...] = field(default=())

@@ -15,12 +15,10 @@ import numpy as np
 from scipy.signal import firwin, kaiserord
 
 from trackig_core import kernel
+from trackig_core.design import DEFAULT_STEP
 from trackig_core.grid import DURATION_LIMIT, LONGEST_RECORD, RECORD_RATE
 from trackig_core.relaxation import laws
 from trackig_core.results import TimeHistory
-
-DEFAULT_STEP = 1e-4
-"""Step that squeezes the contact spring [m]; insertion gain does not depend on it."""
 
 PASS_BAND = 600.0
 """Frequency up to which the record is kept unaliased [Hz]: above the top edge of the 500 Hz band, 562 Hz."""

@@ -4,18 +4,24 @@ SI units. Source: the paper (see :mod:`trackig_core.design`). The one rule: what
 same reference, bands and gain follow the spectrum.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
-from trackig_core.bands import BAND_EDGES
+from trackig_core import harmonic
 from trackig_core.catalogue import PRESETS
 from trackig_core.design import DesignError
-from trackig_core.gain import LINE_FRACTION, REFERENCES, SUMMATIONS, check_choice, insertion_gain
+from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.grid import make_grid
-from trackig_core.harmonic import resolved_spectrum
-from trackig_core.modes import natural_frequencies
+from trackig_core.harmonic import banded_spectrum
+from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
+from trackig_core.relaxation import laws
 from trackig_core.results import Solution
-from trackig_core.simulate import DEFAULT_STEP, simulate
-from trackig_core.spectrum import force_spectrum
+from trackig_core.simulate import simulate
+from trackig_core.spectrum import block_to_rail, force_spectrum
+
+POOR_FIT = 0.1
+"""Relative error of a fitted loss factor above which the solution says so [-]."""
 
 FIDELITIES = ("paper", "exact")
 """Fidelities that :func:`solve` offers."""
@@ -69,9 +75,11 @@ def solve(
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
     frequencies = natural_frequencies(design)
+    pad_law, boot_law = laws(design)
     grid, history, notes = None, None, ()
     if fidelity == "exact":
-        spectrum = _exact_spectrum(design, frequencies.loaded_track)
+        _refuse_if_unbounded(design, pad_law, boot_law)
+        spectrum = banded_spectrum(design, frequencies.loaded_track)
     else:
         grid = make_grid(design)
         history = simulate(design, grid, progress=progress, cancelled=cancelled)
@@ -82,23 +90,48 @@ def solve(
         fidelity=fidelity,
         gain=insertion_gain(spectrum, design, frequencies.loaded_track, reference, summation),
         spectrum=spectrum,
-        natural_frequencies=frequencies,
+        natural_frequencies=_observed(design, frequencies, spectrum, history),
+        pad_law=pad_law,
+        boot_law=boot_law,
         grid=grid,
         history=history,
-        notes=notes,
+        notes=notes + _fit_notes(pad_law, boot_law),
     )
 
 
-def _exact_spectrum(design, loaded_track):
-    """Return the twin's spectrum over all bands and down to where the reference line is anchored."""
+def _observed(design, frequencies, spectrum, history):
+    """Return the natural frequencies with those added that the solution itself shows."""
+    block = None
+    if design.two_stage:
+        near = frequencies.coupled_block
+        if history is None:
+            axis = np.geomspace(near / PEAK_REACH, near * PEAK_REACH, 200)
+            block = peak_near(axis, harmonic.block_to_rail(design, axis), near)
+        else:
+            block = peak_near(*block_to_rail(history), near)
+    per_line = spectrum.energy / spectrum.frequency**2
+    return replace(
+        frequencies,
+        observed_loaded_track=peak_near(spectrum.frequency, per_line, frequencies.loaded_track),
+        observed_coupled_block=block,
+    )
+
+
+def _refuse_if_unbounded(design, pad_law, boot_law):
     # With a loss-free spring on the ground there is a frequency at which waves never die along the track.
     last = "boot_loss_factor" if design.two_stage else "pad_loss_factor"
-    if getattr(design, last) == 0:
-        raise DesignError(last, 0.0, "more than 0: without loss the exact spectrum has no bound")
-    anchor = LINE_FRACTION * loaded_track
-    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
-    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
-    return resolved_spectrum(design, np.concatenate([below, between]), DEFAULT_STEP)
+    if not (boot_law or pad_law).strengths:
+        raise DesignError(
+            last, getattr(design, last), "more than 0: without loss the exact spectrum has no bound"
+        )
+
+
+def _fit_notes(pad_law, boot_law):
+    return tuple(
+        f"the law fitted to the {part} misses the stated values by up to {law.worst_error:.0%}, 5 to 500 Hz"
+        for part, law in (("pad", pad_law), ("boot", boot_law))
+        if law is not None and law.worst_error > POOR_FIT
+    )
 
 
 def _record_notes(grid, history):

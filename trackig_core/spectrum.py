@@ -29,19 +29,16 @@ def force_spectrum(history):
     ForceSpectrum
         At multiples of one over the record's length, up to 600 Hz.
     """
-    samples = len(history.time)
-    interval = (history.time[-1] - history.time[0]) / (samples - 1)
-    count = int(TOP_FREQUENCY * samples * interval) + 1
-    frequency = np.arange(1, count) / (samples * interval)
+    frequency, interval = _axis(history)
     correction = (interval / filter_gain(history.low_pass, history.time_step, frequency)) ** 2
 
-    energy = np.zeros(count - 1)
-    total = np.zeros(count - 1, dtype=complex)
+    energy = np.zeros(len(frequency))
+    total = np.zeros(len(frequency), dtype=complex)
     # A few supports at a time, so that the transforms stay small beside the record itself.
     for first in range(0, history.multiplicity.size, 32):
         some = slice(first, first + 32)
         forces = np.ascontiguousarray(history.support_force[:, some].T)
-        transforms = rfft(forces, axis=1)[:, 1:count]
+        transforms = rfft(forces, axis=1)[:, 1 : len(frequency) + 1]
         energy += history.multiplicity[some] @ (transforms.real**2 + transforms.imag**2)
         total += history.multiplicity[some] @ transforms
     return ForceSpectrum(
@@ -50,6 +47,34 @@ def force_spectrum(history):
         coherent_energy=correction * np.abs(total) ** 2,
         step=history.step,
     )
+
+
+def block_to_rail(history):
+    """Return how much the block moves per movement of the rail, at the loaded support.
+
+    Parameters
+    ----------
+    history : TimeHistory
+        Record of a two-stage run.
+
+    Returns
+    -------
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies [Hz], up to 600 Hz.
+    ratio : numpy.ndarray (frequencies,)
+        Magnitude of block over rail displacement [-]; the low-pass filter's response cancels.
+    """
+    frequency, _ = _axis(history)
+    some = slice(1, len(frequency) + 1)
+    return frequency, np.abs(rfft(history.block_displacement)[some] / rfft(history.rail_displacement)[some])
+
+
+def _axis(history):
+    """Return the frequencies of a record's transform up to 600 Hz, zero left out, and its interval [s]."""
+    samples = len(history.time)
+    interval = (history.time[-1] - history.time[0]) / (samples - 1)
+    count = int(TOP_FREQUENCY * samples * interval) + 1
+    return np.arange(1, count) / (samples * interval), interval
 
 
 def filter_gain(taps, time_step, frequency):

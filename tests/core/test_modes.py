@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from tests.core.test_grid import designs
 from trackig_core.harmonic import receptance
-from trackig_core.modes import natural_frequencies
+from trackig_core.modes import natural_frequencies, peak_near
 from trackig_core.relaxation import laws
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
@@ -101,3 +101,27 @@ def test_a_wheel_on_a_rigid_rail_bounces_on_its_contact_spring(mass):
     )
     assert natural_frequencies(stiff).loaded_track == pytest.approx(softened, rel=1e-4)
     assert natural_frequencies(stiff).loaded_track == pytest.approx(expected, rel=0.02)
+
+
+@pytest.mark.parametrize("fidelity", ["paper", "exact"])
+def test_observed_peaks_stand_beside_the_computed_roots(preset, fidelity, solved):
+    """Damping and the reference's slope move a peak off its root by less than one per cent."""
+    solution = solved(preset) if fidelity == "paper" else tig.solve(tig.PRESETS[preset], "exact")
+    found = solution.natural_frequencies
+    assert found.observed_loaded_track == pytest.approx(found.loaded_track, rel=0.01)
+    per_line = solution.spectrum.energy / solution.spectrum.frequency**2
+    near = np.abs(solution.spectrum.frequency / found.loaded_track - 1) < 0.3
+    highest = solution.spectrum.frequency[near][np.argmax(per_line[near])]
+    assert found.observed_loaded_track == pytest.approx(highest, abs=0.5)
+    if solution.design.two_stage:
+        assert found.observed_coupled_block == pytest.approx(found.coupled_block, rel=0.01)
+    else:
+        assert found.observed_coupled_block is None
+
+
+def test_a_peak_is_found_between_points_and_only_where_there_is_one():
+    frequency = np.arange(1.0, 200.0)
+    peaked = 1 / (1 + ((frequency - 63.4) / 4) ** 2)
+    assert peak_near(frequency, peaked, 60.0) == pytest.approx(63.4, abs=0.05)
+    assert peak_near(frequency, frequency**2, 60.0) is None
+    assert peak_near(frequency, peaked, 5000.0) is None

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from trackig_core.relaxation import FIT_FREQUENCIES, fit_terms, relaxation
+from trackig_core.relaxation import FIT_FREQUENCIES, fit_loss_factor, relaxation
 
 LOSS_FACTORS = [0.05, 0.1, 0.15, 0.2, 0.3, 0.5]
 
 
 @pytest.mark.parametrize("loss_factor", ["0.1", "0.15", "0.2", "0.3"])
 def test_terms_are_the_golden_ones(golden, loss_factor):
-    strengths, times, _ = fit_terms(float(loss_factor))
+    law = fit_loss_factor(float(loss_factor))
     expected = golden["relaxation_fit"][loss_factor]
-    assert strengths == pytest.approx(expected["D_relative"], rel=1e-3)
-    assert times == pytest.approx(expected["tau_s"], rel=1e-3)
+    assert law.strengths == pytest.approx(expected["D_relative"], rel=1e-3)
+    assert law.times == pytest.approx(expected["tau_s"], rel=1e-3)
 
 
 @pytest.mark.parametrize("loss_factor", LOSS_FACTORS)
@@ -28,14 +28,14 @@ def test_stiffness_at_50_hz_is_as_stated_and_the_loss_factor_within_5_percent(lo
 
 @pytest.mark.parametrize("loss_factor", LOSS_FACTORS)
 def test_no_small_change_of_a_term_fits_better(loss_factor):
-    strengths, times, _ = fit_terms(loss_factor)
+    law = fit_loss_factor(loss_factor)
 
     def misfit(values):
         terms = sum(d / (1 + 2j * np.pi * FIT_FREQUENCIES * t) for d, t in zip(*values, strict=True))
         fixed = 1 + sum(d / (1 + (100 * np.pi * t) ** 2) for d, t in zip(*values, strict=True))
         return np.sum(((fixed - terms).imag / (fixed - terms).real / loss_factor - 1) ** 2)
 
-    best = np.array([strengths, times])
+    best = np.array([law.strengths, law.times])
     for index in np.ndindex(2, 3):
         for factor in (0.99, 1.01):
             changed = best.copy()
@@ -103,3 +103,43 @@ def test_recursions_converge_with_their_order(order, expected):
         errors.append(np.abs(force - exact)[-steps:].max())
     slopes = np.log2(np.array(errors[:-1]) / errors[1:])
     assert slopes == pytest.approx([expected, expected], abs=0.1)
+
+
+def test_the_law_is_causal():
+    """Its response to a step of strain, by Fourier inversion of K(f), is real, and zero before the step.
+
+    The singular part, k_inf H(t), is causal by itself; what is left is smooth enough to transform.
+    """
+    law = relaxation(1.0, 0.3)
+    interval, count = 2e-6, 2**20
+    frequency = np.fft.fftfreq(count, interval)
+    angular = 2j * np.pi * frequency
+    with np.errstate(divide="ignore", invalid="ignore"):
+        spectrum = (law.dynamic_stiffness(frequency) - law.instantaneous) / angular
+    # a step that lasts for half of the window, so that its mean is finite
+    half = count // 2
+    box = angular * 0 + half * interval
+    box[1:] = (1 - np.exp(-angular[1:] * half * interval)) / angular[1:]
+    response = np.fft.ifft((law.dynamic_stiffness(frequency) - law.instantaneous) * box) / interval
+    assert spectrum.size == count
+    assert np.abs(response.imag).max() < 1e-6
+    # before the step: the end of the window, after the box has been forgotten
+    assert np.abs(response.real[-1000:-10]).max() < 1e-4
+    time = np.arange(count) * interval
+    relaxed = -sum(k * -np.expm1(-time / t) for k, t in zip(law.strengths, law.times, strict=True))
+    inside = slice(1000, half - 1000)
+    assert response.real[inside] == pytest.approx(relaxed[inside], abs=1e-4)
+
+
+def test_stiffness_and_loss_obey_kramers_and_kronig():
+    """Re K follows from Im K alone: Re K(w) = k_inf - (2/pi) P int w' Im K(w') / (w'^2 - w^2) dw'."""
+    law = relaxation(1.0, 0.3)
+    at = 40.0
+    # over the logarithm of frequency, the principal value by subtracting what stands at the pole
+    grid = np.geomspace(1e-6, 1e10, 400_001)
+    centred = grid * at / grid[np.argmin(np.abs(grid - at))] * (1 + 1e-9)
+    loss = law.dynamic_stiffness(centred).imag
+    pole = law.dynamic_stiffness(at).imag
+    integrand = (centred * loss - at * pole) / (centred**2 - at**2)
+    found = law.instantaneous - 2 / np.pi * np.trapezoid(integrand * centred, np.log(centred))
+    assert found == pytest.approx(law.dynamic_stiffness(at).real, rel=1e-4)

@@ -1,0 +1,143 @@
+"""Damping and stiffness as a test house reports them: tables of points over frequency.
+
+Hz, N/m; loss factors have no unit. Between points, values are straight lines over the logarithm of
+frequency; beyond the first and last point they stay as they are there.
+
+The one rule: a table that exists is sound. Every row is checked when the table is made, and an error
+names the row.
+"""
+
+import math
+import numbers
+from dataclasses import dataclass
+
+import numpy as np
+
+MOST_POINTS = 1000
+"""Rows that a table may have [-]."""
+
+COLUMNS = {
+    "frequency": (0.1, 1e5, "Hz"),
+    "stiffness": (1e5, 1e13, "N/m"),
+    "loss factor": (1e-4, 1.0, ""),
+}
+"""Lowest and highest value, and unit, of each column."""
+
+
+class MeasurementError(ValueError):
+    """A table of measured points cannot be used.
+
+    Attributes
+    ----------
+    row : int or None
+        Number of the row at fault, counted from 1; None if the table as a whole is.
+    """
+
+    def __init__(self, message, row=None):
+        self.row = row
+        super().__init__(message if row is None else f"row {row}: {message}")
+
+
+@dataclass(frozen=True)
+class LossFactorCurve:
+    """A measured loss factor over frequency.
+
+    Parameters
+    ----------
+    points : iterable of (float, float)
+        Rows of frequency [Hz], ascending, and loss factor [-]; two or more.
+
+    Raises
+    ------
+    MeasurementError
+        If a row is out of order, or not made of numbers within their ranges.
+    """
+
+    points: tuple[tuple[float, float], ...]
+
+    def __post_init__(self):
+        """Check every row once."""
+        object.__setattr__(self, "points", _checked(self.points, ("frequency", "loss factor")))
+
+    def loss_factor(self, frequency):
+        """Return the loss factor at given frequencies [Hz]; same shape, [-]."""
+        return _interpolated(frequency, self.points, 1)
+
+
+@dataclass(frozen=True)
+class StiffnessCurve:
+    """A measured dynamic stiffness and its loss factor over frequency.
+
+    Parameters
+    ----------
+    points : iterable of (float, float, float)
+        Rows of frequency [Hz], ascending, dynamic stiffness (the real part of the complex stiffness)
+        [N/m] and loss factor [-]; two or more.
+
+    Raises
+    ------
+    MeasurementError
+        If a row is out of order, or not made of numbers within their ranges.
+    """
+
+    points: tuple[tuple[float, float, float], ...]
+
+    def __post_init__(self):
+        """Check every row once."""
+        object.__setattr__(self, "points", _checked(self.points, tuple(COLUMNS)))
+
+    def stiffness(self, frequency):
+        """Return the dynamic stiffness at given frequencies [Hz]; same shape, [N/m]."""
+        return _interpolated(frequency, self.points, 1)
+
+    def loss_factor(self, frequency):
+        """Return the loss factor at given frequencies [Hz]; same shape, [-]."""
+        return _interpolated(frequency, self.points, 2)
+
+    def covers(self, frequency):
+        """Return whether given frequencies [Hz] lie between the first and the last point; same shape."""
+        frequency = np.asarray(frequency)
+        return (frequency >= self.points[0][0]) & (frequency <= self.points[-1][0])
+
+
+def _interpolated(frequency, points, column):
+    table = np.array(points)
+    return np.interp(np.log(frequency), np.log(table[:, 0]), table[:, column])
+
+
+def _checked(points, columns):
+    """Return the table as a tuple of tuples of floats, or raise a MeasurementError."""
+    try:
+        rows = [tuple(row) for row in points]
+    except TypeError:
+        raise MeasurementError(f"give rows of {', '.join(columns)}") from None
+    if not 2 <= len(rows) <= MOST_POINTS:
+        raise MeasurementError(f"{len(rows)} rows: give from 2 to {MOST_POINTS} rows of {', '.join(columns)}")
+    checked = []
+    for number, row in enumerate(rows, start=1):
+        if len(row) != len(columns):
+            raise MeasurementError(f"{len(row)} values: give {', '.join(columns)}", number)
+        values = tuple(_number(*pair, number) for pair in zip(columns, row, strict=True))
+        if checked and values[0] <= checked[-1][0]:
+            before = checked[-1][0]
+            raise MeasurementError(
+                f"frequency {values[0]:g} Hz is not above the {before:g} Hz of row {number - 1}: "
+                "sort the rows by frequency, and give each frequency once",
+                number,
+            )
+        checked.append(values)
+    return tuple(checked)
+
+
+def _number(column, value, row):
+    low, high, unit = COLUMNS[column]
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        if math.isfinite(number) and low <= number <= high:
+            return number
+    shown = repr(value)
+    shown = shown if len(shown) <= 40 else shown[:37] + "..."
+    raise MeasurementError(f"{column} = {shown}: give a number from {low:g} to {high:g} {unit}".rstrip(), row)
