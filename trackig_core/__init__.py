@@ -24,6 +24,7 @@ from trackig_core.results import (
 )
 from trackig_core.simulate import SolveCancelled
 from trackig_core.solver import compile_kernels, solve
+from trackig_core.verification import Verification, verify
 
 __all__ = [
     "BAND_CENTRES",
@@ -46,6 +47,7 @@ __all__ = [
     "StiffnessCurve",
     "TimeHistory",
     "TrackDesign",
+    "Verification",
     "compile_kernels",
     "element_errors",
     "insertion_gain",
@@ -54,4 +56,5 @@ __all__ = [
     "solve",
     "time_step_errors",
     "track_decay_rate",
+    "verify",
 ]

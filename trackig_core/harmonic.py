@@ -16,7 +16,7 @@ import numpy as np
 
 from trackig_core import kernel
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION
-from trackig_core.design import DEFAULT_STEP
+from trackig_core.design import DEFAULT_STEP, DesignError
 from trackig_core.relaxation import laws
 from trackig_core.results import ForceSpectrum
 
@@ -106,19 +106,25 @@ class Waves:
 
     def energy_sum(self):
         """Return the sum over all supports of the squared receptance (frequencies,) [m2/N2]."""
-        if self.bays is not None:
-            half = np.arange(1, (self.bays + 1) // 2)
-            others = 2 * np.sum(np.abs(self.receptance(half)) ** 2, axis=0)
-            if self.bays % 2 == 0:
-                others = others + np.abs(self.receptance(self.bays // 2)) ** 2
-            return np.abs(self.receptance()) ** 2 + others
-        first, second = self.multipliers
-        a, b = self.amplitudes
-        # sum over all s of q^|s| = (1 + q) / (1 - q)
-        own = np.abs(a) ** 2 * _two_sided(np.abs(first) ** 2) + np.abs(b) ** 2 * _two_sided(
-            np.abs(second) ** 2
+        first, second = (
+            self.amplitudes if self.bays is None else self.amplitudes / (1 - self.multipliers**self.bays)
         )
-        return own + 2 * np.real(a * b.conj() * _two_sided(first * second.conj()))
+        pairs = np.abs(first) ** 2, np.abs(second) ** 2, 2 * first * second.conj()
+        here, there = self.multipliers
+        sums = (self._product_sum(*each) for each in ((here, here), (there, there), (here, there)))
+        return np.real(sum(pair * total for pair, total in zip(pairs, sums, strict=True)))
+
+    def _product_sum(self, one, other):
+        """Return the sum over all supports of one wave's shape times the conjugate of the other's."""
+        other = other.conj()
+        if self.bays is None:
+            return _two_sided(one * other)
+        # shape at support s of the ring: m^s + m^(bays - s); four geometric sums, two of them alike
+        around, back = one**self.bays, other**self.bays
+        apart = other - one
+        equal = np.abs(apart) < 1e-9
+        opposite = np.where(equal, self.bays * around / one, (back - around) / np.where(equal, 1.0, apart))
+        return _two_sided(one * other) * (1 - around * back) + (one + other) * opposite
 
     def coherent_sum(self):
         """Return the sum over all supports of the receptance (frequencies,) [m/N]; ring and line agree."""
@@ -358,6 +364,29 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
         left, right = np.concatenate([left, middle], axis=1), np.concatenate([middle, right], axis=1)
     rows = rows[:, np.argsort(rows[0])]
     return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=step)
+
+
+def refuse_if_unbounded(design):
+    """Raise a DesignError if a design has no exact spectrum.
+
+    With a loss-free spring on the ground there is a frequency at which waves never die along the track.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Raises
+    ------
+    DesignError
+        If the spring that stands on the ground has no loss.
+    """
+    pad, boot = laws(design)
+    if not (boot or pad).strengths:
+        field = "boot_loss_factor" if design.two_stage else "pad_loss_factor"
+        raise DesignError(
+            field, getattr(design, field), "more than 0: without loss the exact spectrum has no bound"
+        )
 
 
 def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):

@@ -10,10 +10,9 @@ import numpy as np
 
 from trackig_core import harmonic
 from trackig_core.catalogue import PRESETS
-from trackig_core.design import DesignError
 from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.grid import make_grid
-from trackig_core.harmonic import banded_spectrum
+from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
 from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
 from trackig_core.relaxation import laws
 from trackig_core.results import Solution
@@ -78,7 +77,7 @@ def solve(
     pad_law, boot_law = laws(design)
     grid, history, notes = None, None, ()
     if fidelity == "exact":
-        _refuse_if_unbounded(design, pad_law, boot_law)
+        refuse_if_unbounded(design)
         spectrum = banded_spectrum(design, frequencies.loaded_track)
     else:
         grid = make_grid(design)
@@ -115,15 +114,6 @@ def _observed(design, frequencies, spectrum, history):
         observed_loaded_track=peak_near(spectrum.frequency, per_line, frequencies.loaded_track),
         observed_coupled_block=block,
     )
-
-
-def _refuse_if_unbounded(design, pad_law, boot_law):
-    # With a loss-free spring on the ground there is a frequency at which waves never die along the track.
-    last = "boot_loss_factor" if design.two_stage else "pad_loss_factor"
-    if not (boot_law or pad_law).strengths:
-        raise DesignError(
-            last, getattr(design, last), "more than 0: without loss the exact spectrum has no bound"
-        )
 
 
 def _fit_notes(pad_law, boot_law):
