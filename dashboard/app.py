@@ -1,0 +1,76 @@
+"""Composition root: the one place where inputs, runner, controls and views meet.
+
+The one rule: parts are made here and handed to each other; no part looks another up.
+"""
+
+import logging
+
+import panel as pn
+import panel_material_ui as pmui
+import param
+from panel.util import edit_readonly
+
+from dashboard import style
+from dashboard.controls import Controls
+from dashboard.runner import Runner, shared_store
+from dashboard.state import DesignInputs, Outcome
+from dashboard.views.explore import Explore
+from dashboard.views.status import Status
+
+TITLE = "trackig"
+SUBTITLE = "insertion gain of railway track supports"
+
+log = logging.getLogger(__name__)
+
+
+class Busy(param.Parameterized):
+    """Whether this session is busy."""
+
+    value = param.Boolean(default=False)
+
+
+def build(store=None):
+    """Make the page of one session.
+
+    Parameters
+    ----------
+    store : SolutionStore, optional
+        Where solutions come from; by default the one that all sessions share.
+
+    Returns
+    -------
+    panel_material_ui.Page
+        The page, its first design solved or being solved.
+    """
+    pn.extension(notifications=True, reconnect=True, exception_handler=tell)
+    inputs, outcome = DesignInputs(), Outcome()
+    runner = Runner(inputs, outcome, store or shared_store())
+    runner.start()
+    pn.state.on_session_destroyed(runner.close)
+    return page(Controls(inputs), Status(outcome, runner.stop), [Explore(outcome)])
+
+
+def page(controls, status, views):
+    """Return the page around controls, status line and views, the latter as tabs when there are several."""
+    tabs = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
+    whole = pmui.Page(
+        title=TITLE,
+        header=[pmui.Typography(SUBTITLE, variant="body1", sx=style.SUBTITLE, margin=(4, 0, 0, 16))],
+        sidebar=[controls],
+        main=[status, tabs if len(views) > 1 else views[0]],
+        sidebar_width=style.SIDEBAR_WIDTH,
+        theme_config=style.THEME,
+        sx=style.PAGE,
+        meta_description=f"{TITLE}: {SUBTITLE}",
+    )
+    # the page would follow a flag that all sessions of the process share, and would never let go of it
+    with edit_readonly(whole):
+        whole.busy = Busy().param.value
+    return whole
+
+
+def tell(error):
+    """Log an exception that escaped a callback, and tell the user so in plain words."""
+    log.error("A callback failed", exc_info=error)
+    if pn.state.notifications is not None:
+        pn.state.notifications.error("Something went wrong; the server's log has the details.", duration=8000)

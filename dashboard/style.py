@@ -1,0 +1,119 @@
+"""Colours, sizes and number formats: the look of the dashboard, in one file.
+
+The one rule: no colour code and no number format stands anywhere else. Colours carry meaning by
+quantity, are told apart by colour-blind readers (after Okabe and Ito, 2008), and hold a contrast
+of at least 3 against the light and the dark paper (WCAG 2.2, 1.4.11), since figures keep their
+colours when the theme is switched.
+"""
+
+import math
+
+LIGHT_PAPER = "#ffffff"
+DARK_PAPER = "#121212"
+
+THIS_DESIGN = "#2b83c6"
+"""The design at hand: its insertion gain, its total force."""
+
+LOADED_TRACK = "#d55e00"
+"""All that concerns the loaded track: its frequency, the force under the wheel."""
+
+COUPLED_BLOCK = "#00966e"
+"""The block between pad and boot."""
+
+PRESET_GHOST = "#808080"
+"""The preset from which a modified design departs; also axes and zero lines."""
+
+FIGURE_COLOURS = (THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST)
+
+APP_BAR = "#17324d"
+
+THEME = {
+    "light": {
+        "palette": {
+            "primary": {"main": "#1b64a0"},
+            "background": {"default": "#f3f5f7", "paper": LIGHT_PAPER},
+        }
+    },
+    "dark": {
+        "palette": {"primary": {"main": "#6db3e8"}, "background": {"default": "#0b0d0f", "paper": DARK_PAPER}}
+    },
+}
+"""Material themes of the page by mode."""
+
+FILL_ALPHA = 0.22
+LINE_WIDTH = 3
+THIN_LINE_WIDTH = 2
+DOT_SIZE = 9
+FONT = "Roboto, Helvetica, Arial, sans-serif"
+MARKER_LABEL_SIZE = "15px"
+
+
+def frequency_text(frequency):
+    """Return a frequency [Hz] as a reader wants it: three figures, with its unit."""
+    decimals = max(0, 2 - math.floor(math.log10(frequency)))
+    return f"{frequency:.{decimals}f} Hz"
+
+
+def duration_text(seconds):
+    """Return a duration [s] in ms below one second, else in s."""
+    return f"{1000 * seconds:.0f} ms" if seconds < 0.9995 else f"{seconds:.1f} s"
+
+
+def level_text(level):
+    """Return a level [dB] with its sign and one decimal; a true minus, so that columns align."""
+    return f"{level:+.1f} dB".replace("-", "−")
+
+
+def quantity_text(value):
+    """Return an input's value as it is typed: up to six figures, no trailing zeros."""
+    return f"{value:.6g}"
+
+
+GROUP_HEADING = {"fontWeight": 700, "letterSpacing": "0.02em"}
+
+HIDDEN_LABEL = {
+    "& .MuiInputLabel-root": {"clipPath": "inset(50%)", "position": "absolute", "whiteSpace": "nowrap"},
+    "& legend": {"display": "none"},
+    "& fieldset": {"top": 0},
+    "& .MuiFormHelperText-root": {"margin": "2px 0 0 4px", "whiteSpace": "nowrap"},
+    "& input": {"padding": "5px 8px", "textAlign": "right", "fontVariantNumeric": "tabular-nums"},
+}
+"""A box whose label only screen readers meet, the slider beside it showing the same words."""
+
+SIDEBAR_WIDTH = 330
+SUBTITLE = {"color": "white", "opacity": 0.85}
+STATUS_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+span { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
+.problem { color: var(--danger-bg-color); font-weight: 500; }
+"""
+SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
+"""A slider marks the preset's value with a tick."""
+
+PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
+PANEL = {"borderRadius": "8px", "height": "100%"}
+PANEL_TITLE = {"fontWeight": 700}
+
+
+def _figure_css(height):
+    return f":host {{ flex: none !important; height: {height} !important; }}"
+
+
+TALL = _figure_css("max(330px, calc(53vh - 110px))")
+LOW = _figure_css("max(270px, calc(47vh - 100px))")
+"""Heights of the figures: together with their headings they fill the window, and no less than is legible."""
+
+FREQUENCIES_CSS = f"""
+:host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
+.mains {{ display: flex; gap: 16px; padding: 2px 14px 0 14px; }}
+.main {{ flex: 1; }}
+h3 {{ margin: 0; font-size: 15px; font-weight: 500; }}
+p {{ margin: 0; font-size: 14px; line-height: 1.35; }}
+p.figure {{ font-size: 38px; font-weight: 700; line-height: 1.2; font-variant-numeric: tabular-nums; }}
+.loaded-track .figure {{ color: {LOADED_TRACK}; }}
+.coupled-block .figure {{ color: {COUPLED_BLOCK}; }}
+dl {{ display: grid; grid-template-columns: max-content 1fr; gap: 2px 12px; }}
+dl {{ margin: 12px 14px 10px 14px; font-size: 14px; }}
+dt {{ font-weight: 700; text-align: right; font-variant-numeric: tabular-nums; }}
+dd {{ margin: 0; }}
+"""

@@ -1,0 +1,117 @@
+"""A served dashboard and a real headless Chromium; no request may leave this machine."""
+
+import contextlib
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import sync_playwright
+
+ROOT = Path(__file__).parent.parent.parent
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+
+START_LIMIT = 120
+"""Seconds that the server may take to start on a slow machine with no compiled kernels."""
+
+READY = """() => {
+    const document = window.Bokeh?.documents?.[0]
+    return document?.is_idle && document.get_model_by_name("insertion_gain")?.data.level.length == 21
+        && Number.isFinite(document.get_model_by_name("insertion_gain").data.level[0])
+}"""
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """Start the system's browser, not one that Playwright would have to download."""
+    path = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if path is None:
+        reason = f"no browser found (looked for {', '.join(BROWSERS)})"
+        if os.environ.get("TRACKIG_REQUIRE_BROWSER") == "1":
+            pytest.fail(reason)
+        pytest.skip(reason)
+    # containers lack the kernel features of the sandbox, and often a large /dev/shm
+    flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=flags)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def address(chromium, tmp_path_factory):  # noqa: ARG001  (no browser, no server)
+    """Serve the dashboard as a user does, and return its address."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = [sys.executable, "-m", "panel", "serve", "dashboard", "--address", "127.0.0.1"]
+    command += ["--port", str(port), "--allow-websocket-origin", f"127.0.0.1:{port}"]
+    log = tmp_path_factory.mktemp("server") / "log.txt"
+    with log.open("w") as output:
+        server = subprocess.Popen(command, cwd=ROOT, stdout=output, stderr=subprocess.STDOUT)
+    try:
+        url = f"http://127.0.0.1:{port}/dashboard"
+        _wait_until_served(url, server, log)
+        yield url
+    finally:
+        server.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            server.wait(10)
+        server.kill()
+        server.wait()
+    assert "Traceback" not in log.read_text(), log.read_text()
+
+
+def _wait_until_served(url, server, log):
+    deadline = time.monotonic() + START_LIMIT
+    while server.poll() is None and time.monotonic() < deadline:
+        try:
+            with urllib.request.urlopen(url, timeout=START_LIMIT) as answer:
+                answer.read()
+                return
+        except (urllib.error.URLError, ConnectionError):
+            time.sleep(0.1)
+    pytest.fail(f"the server did not start:\n{log.read_text()}")
+
+
+@pytest.fixture
+def open_dashboard(address, chromium):
+    """Return a function that opens the dashboard in a session of its own.
+
+    Afterwards no page may have complained, nor asked for anything from elsewhere.
+    """
+    complaints, requested, contexts = [], [], []
+
+    def open_page(width=1440, height=900):
+        contexts.append(chromium.new_context(viewport={"width": width, "height": height}))
+        page = contexts[-1].new_page()
+        page.set_default_timeout(60_000)
+        page.on("request", lambda request: requested.append(request.url))
+        page.on("websocket", lambda websocket: requested.append(websocket.url))
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("console", lambda line: line.type in ("error", "warning") and complaints.append(line.text))
+        page.goto(address)
+        page.wait_for_function(READY)
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    here = address.removeprefix("http://").removesuffix("dashboard")
+    local = (f"http://{here}", f"ws://{here}", "data:", "blob:")
+    assert requested
+    assert [url for url in requested if not url.startswith(local)] == []
+    assert complaints == []
+
+
+@pytest.fixture
+def dashboard(open_dashboard):
+    """Open the dashboard."""
+    return open_dashboard()

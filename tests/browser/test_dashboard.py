@@ -1,0 +1,237 @@
+"""The served dashboard, driven as a user drives it; what is drawn is compared with the library."""
+
+import re
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+import trackig_core as tig
+
+pytestmark = pytest.mark.browser
+
+OPENING = tig.PRESETS["booted-block-low-mass"]
+
+MARKUP = "<img src=x onerror=console.error(1)>"
+"""Complains in the console if it is ever taken for markup."""
+
+expect.set_options(timeout=60_000)
+
+
+def column(page, source, name):
+    """Read a column of a data source in the browser."""
+    values = page.evaluate(
+        "([source, name]) => Array.from(Bokeh.documents[0].get_model_by_name(source).data[name])",
+        [source, name],
+    )
+    return np.array(values, dtype=float)
+
+
+def levels(page):
+    return column(page, "insertion_gain", "level")
+
+
+def wait_for_levels(page, expected):
+    """Wait until the curve in the browser is the expected one; then compare it to the last digit shown."""
+    page.wait_for_function(
+        """expected => {
+            const level = Bokeh.documents[0].get_model_by_name("insertion_gain").data.level
+            return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
+        }""",
+        arg=[float(level) for level in expected],
+    )
+
+
+def slider(page, label):
+    return page.get_by_role("slider", name=label)
+
+
+def box(page, label):
+    return page.get_by_role("textbox", name=f"{label}: type a number")
+
+
+def shown(page, label):
+    """Read an input's value from its box."""
+    return float(box(page, label).input_value())
+
+
+def test_it_opens_on_the_low_mass_block_already_solved(dashboard):
+    solution = tig.solve(OPENING)
+    np.testing.assert_allclose(levels(dashboard), solution.insertion_gain, atol=1e-9)
+    force = column(dashboard, "force", "total")
+    np.testing.assert_allclose(
+        force, solution.total_force / 1000, atol=1e-6 * np.abs(solution.total_force).max() / 1000
+    )
+    natural = solution.natural_frequencies
+    expect(dashboard.get_by_text(f"{natural.loaded_track:.1f} Hz", exact=True)).to_be_visible()
+    expect(dashboard.get_by_text(f"{natural.coupled_block:.0f} Hz", exact=True)).to_be_visible()
+    line = dashboard.evaluate("() => Bokeh.documents[0].get_model_by_name('loaded_track').location")
+    assert line == pytest.approx(natural.loaded_track)
+    expect(dashboard.get_by_role("status")).to_contain_text("olved")
+
+
+def test_a_key_press_on_a_slider_changes_the_insertion_gain(dashboard):
+    handle = slider(dashboard, "Boot stiffness, kN/mm")
+    assert handle.get_attribute("aria-valuetext") == "28"
+    handle.focus()
+    handle.press("PageUp")
+    expect(box(dashboard, "Boot stiffness, kN/mm")).not_to_have_value("28")
+    stiffness = shown(dashboard, "Boot stiffness, kN/mm")
+    assert 30 < stiffness < 40
+    assert handle.get_attribute("aria-valuetext") == f"{stiffness:g}"
+    wait_for_levels(dashboard, tig.solve(OPENING.replace(boot_stiffness=stiffness * 1e6)).insertion_gain)
+    expect(dashboard.get_by_text("Modified", exact=True)).to_be_visible()
+
+
+def test_dragging_a_slider_ends_on_the_picture_of_its_last_value(dashboard):
+    handle = slider(dashboard, "Block mass, kg")
+    thumb = handle.locator("xpath=..")
+    thumb.hover()
+    corner = thumb.bounding_box()
+    x, y = corner["x"] + corner["width"] / 2, corner["y"] + corner["height"] / 2
+    dashboard.mouse.down()
+    for step in range(1, 41):
+        dashboard.mouse.move(x + 2 * step, y)
+    dashboard.mouse.up()
+    expect(box(dashboard, "Block mass, kg")).to_have_value(re.compile(r"^[23]\d\d$"))
+    mass = float(handle.get_attribute("aria-valuetext"))
+    expect(box(dashboard, "Block mass, kg")).to_have_value(f"{mass:g}")
+    wait_for_levels(dashboard, tig.solve(OPENING.replace(block_mass=mass)).insertion_gain)
+
+
+def test_typed_numbers_are_taken_one_after_the_other(dashboard):
+    field = box(dashboard, "Pad stiffness, kN/mm")
+    for typed in ("123.45", "250"):
+        field.fill(typed)
+        field.press("Enter")
+        design = OPENING.replace(pad_stiffness=float(typed) * 1e6)
+        wait_for_levels(dashboard, tig.solve(design).insertion_gain)
+        expect(field).to_have_value(typed)
+
+
+def test_nonsense_is_told_and_changes_nothing(dashboard):
+    before = levels(dashboard)
+    field = box(dashboard, "Unsprung wheel mass, kg")
+    complaint = dashboard.get_by_text("give 200 to 1500")
+    for typed, key in (("abc", "Enter"), ("", "Tab"), ("99999", "Enter"), (MARKUP, "Tab")):
+        field.fill(typed)
+        field.press(key)
+        expect(complaint).to_be_visible()
+        np.testing.assert_array_equal(levels(dashboard), before)
+        field.fill("880")
+        field.press(key)
+        expect(complaint).to_have_count(0)
+    np.testing.assert_array_equal(levels(dashboard), before)
+
+
+def test_a_preset_can_be_chosen_modified_and_come_back_to(dashboard):
+    dashboard.get_by_role("combobox", name="Track of Table 1").click()
+    dashboard.get_by_text("Slab track", exact=True).click()
+    slab = tig.solve(tig.PRESETS["slab-track"]).insertion_gain
+    wait_for_levels(dashboard, slab)
+    expect(slider(dashboard, "Boot stiffness, kN/mm")).to_be_disabled()
+    back = dashboard.get_by_role("button", name="Back to Table 1")
+    expect(back).to_be_disabled()
+    field = box(dashboard, "Pad loss factor")
+    field.fill("0.3")
+    field.press("Enter")
+    modified = tig.PRESETS["slab-track"].replace(pad_loss_factor=0.3)
+    wait_for_levels(dashboard, tig.solve(modified).insertion_gain)
+    np.testing.assert_allclose(column(dashboard, "insertion_gain", "preset"), slab)
+    back.click()
+    wait_for_levels(dashboard, slab)
+    expect(back).to_be_disabled()
+
+
+def test_single_stage_takes_block_and_boot_out_and_puts_them_back(dashboard):
+    switch = dashboard.get_by_role("switch", name="Two-stage: blocks in boots")
+    switch.click()
+    single = OPENING.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
+    wait_for_levels(dashboard, tig.solve(single).insertion_gain)
+    for label in ("Block mass, kg", "Boot stiffness, kN/mm", "Boot loss factor"):
+        expect(slider(dashboard, label)).to_be_disabled()
+        expect(box(dashboard, label)).to_be_disabled()
+    switch.click()
+    wait_for_levels(dashboard, tig.solve(OPENING).insertion_gain)
+    expect(slider(dashboard, "Block mass, kg")).to_be_enabled()
+
+
+def test_a_long_run_can_be_stopped_and_leaves_the_last_picture(dashboard):
+    dashboard.get_by_role("combobox", name="Track of Table 1").click()
+    dashboard.get_by_text("Slab track", exact=True).click()
+    before = tig.solve(tig.PRESETS["slab-track"]).insertion_gain
+    wait_for_levels(dashboard, before)
+    spacing = slider(dashboard, "Fastener spacing, m")
+    spacing.press("Home")
+    spaced = tig.PRESETS["slab-track"].replace(fastener_spacing=0.2)
+    wait_for_levels(dashboard, tig.solve(spaced).insertion_gain)
+    expect(dashboard.get_by_role("status")).to_contain_text("time step halved")
+    slider(dashboard, "Pad loss factor").press("Home")
+    dashboard.get_by_role("button", name="Stop").click()
+    expect(dashboard.get_by_role("status")).to_contain_text("Stopped")
+    wait_for_levels(dashboard, tig.solve(spaced).insertion_gain)
+
+
+def test_sessions_do_not_disturb_each_other(open_dashboard):
+    one, other = open_dashboard(), open_dashboard()
+    slider(one, "Pad stiffness, kN/mm").press("End")
+    wait_for_levels(one, tig.solve(OPENING.replace(pad_stiffness=2000e6)).insertion_gain)
+    np.testing.assert_allclose(levels(other), tig.solve(OPENING).insertion_gain)
+    slider(other, "Pad stiffness, kN/mm").press("End")
+    wait_for_levels(other, levels(one))
+    expect(other.get_by_role("status")).to_contain_text("From cache")
+
+
+def test_time_is_counted_in_ms_or_s_as_zoom_asks(dashboard):
+    zoom = "end => { Bokeh.documents[0].get_model_by_name('force_figure').x_range.end = end }"
+    axis = """expected => {
+        const axis = Bokeh.documents[0].get_model_by_name("force_figure").below[0]
+        return axis.axis_label == expected[0] && axis.formatter.doFormat([0.1], {})[0] == expected[1]
+    }"""
+    for end, expected in ((0.3, ["Time, ms", "100"]), (2.0, ["Time, s", "0.1"]), (0.9, ["Time, ms", "100"])):
+        dashboard.evaluate(zoom, end)
+        dashboard.wait_for_function(axis, arg=expected)
+
+
+def test_hover_tells_band_and_value(dashboard):
+    place = """() => {
+        const figure = Bokeh.documents[0].get_model_by_name("insertion_gain_figure")
+        const view = Bokeh.index.find_one(figure)
+        const box = view.canvas_view.el.getBoundingClientRect()
+        return [box.x + view.frame.x_scale.compute(100), box.y + view.frame.bbox.top + 20]
+    }"""
+    band = dashboard.get_by_text("100 Hz", exact=True)
+    level = f"{tig.solve(OPENING).insertion_gain[13]:+.1f} dB".replace("-", "−")
+    dashboard.mouse.move(*dashboard.evaluate(place))
+    for _ in range(100):
+        # until the layout has settled, the place may move away from under the pointer
+        if band.is_visible():
+            break
+        dashboard.wait_for_timeout(100)
+        x, y = dashboard.evaluate(place)
+        dashboard.mouse.move(x, y + 5)
+        dashboard.mouse.move(x, y)
+    expect(band).to_be_visible()
+    expect(dashboard.get_by_text(level, exact=True)).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [1024, 1440])
+def test_nothing_is_wider_than_the_window(open_dashboard, width):
+    page = open_dashboard(width=width, height=768)
+    assert page.evaluate("() => document.scrollingElement.scrollWidth") <= width
+    for name in ("insertion_gain_figure", "force_figure"):
+        right = page.evaluate(
+            """name => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
+                .el.getBoundingClientRect().right""",
+            name,
+        )
+        assert right <= width
+
+
+def test_the_dark_theme_reaches_figures_and_text(dashboard):
+    background = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').background_fill_color"
+    light = dashboard.evaluate(background)
+    dashboard.get_by_label("Toggle theme").click()
+    dashboard.wait_for_function(f"light => ({background})() != light", arg=light)
+    colour = dashboard.get_by_role("status").evaluate("element => getComputedStyle(element).color")
+    assert min(map(int, re.findall(r"\d+", colour)[:3])) > 150

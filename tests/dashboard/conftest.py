@@ -1,0 +1,62 @@
+"""Fixtures of the dashboard's tests: real pictures, each solved once, and a store without a solver."""
+
+import dataclasses
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+
+import panel as pn
+import pytest
+
+import trackig_core as tig
+from dashboard.runner import FIDELITY, take_picture
+from dashboard.store import SolutionStore
+
+
+@cache
+def _picture(preset):
+    return take_picture((tig.PRESETS[preset], FIDELITY), lambda *_: None, lambda: False)
+
+
+@pytest.fixture
+def picture():
+    """Return the picture of a preset by name."""
+    return _picture
+
+
+@pytest.fixture
+def fake_picture(picture):
+    """Return a function that makes a picture of any design without solving it."""
+    real = picture("booted-block-low-mass")
+
+    def fake(design, notes=()):
+        return dataclasses.replace(
+            real, solution=dataclasses.replace(real.solution, design=design, notes=notes)
+        )
+
+    return fake
+
+
+@pytest.fixture
+def make_store():
+    """Return a function that makes stores, closed after the test."""
+    stores = []
+
+    def make(solve, capacity=8, workers=2):
+        stores.append(SolutionStore(solve, ThreadPoolExecutor(max_workers=workers), capacity))
+        return stores[-1]
+
+    yield make
+    for store in stores:
+        store.close()
+
+
+@pytest.fixture
+def instant_store(make_store, fake_picture):
+    """Return a store that answers at once with pictures that were never solved."""
+    return make_store(lambda key, *_: fake_picture(key[0]))
+
+
+@pytest.fixture(autouse=True)
+def _fresh_panel():
+    yield
+    pn.state.reset()

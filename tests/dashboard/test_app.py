@@ -1,0 +1,93 @@
+"""The whole in process: the page is made, it is apart from other sessions, and it never stays white."""
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+import panel as pn
+import pytest
+from bokeh.document import Document
+from panel.util import edit_readonly
+
+import dashboard
+import trackig_core as tig
+from dashboard import app, app_hooks
+from dashboard.runner import FIDELITY
+
+MAIN = Path(dashboard.__file__).parent / "main.py"
+
+
+@pytest.fixture
+def store(instant_store):
+    """Return a store that has the opening picture already."""
+    instant_store.request((tig.PRESETS["booted-block-low-mass"], FIDELITY)).future.result(30)
+    return instant_store
+
+
+def test_the_page_opens_already_solved(store, picture):
+    document = Document()
+    app.build(store).server_doc(document, location=False)
+    source = document.get_model_by_name("insertion_gain")
+    expected = picture("booted-block-low-mass").solution.insertion_gain
+    np.testing.assert_array_equal(source.data["level"], expected)
+    assert document.get_model_by_name("force").data["time"].size > 1000
+
+
+def test_another_session_s_work_does_not_make_this_page_busy(store):
+    page = app.build(store)
+    with edit_readonly(pn.state):
+        pn.state.busy = True
+        try:
+            assert not page.busy
+        finally:
+            pn.state.busy = False
+
+
+def test_sessions_share_solutions_and_nothing_else(store):
+    one, other = Document(), Document()
+    app.build(store).server_doc(one, location=False)
+    app.build(store).server_doc(other, location=False)
+    assert one.get_model_by_name("insertion_gain") is not other.get_model_by_name("insertion_gain")
+
+
+def test_a_page_that_cannot_be_made_says_so(monkeypatch, caplog):
+    def broken():
+        raise RuntimeError("no <b>fonts</b>")
+
+    monkeypatch.setattr(app, "build", broken)
+    page = runpy.run_path(str(MAIN))["page"]
+    assert "could not start" in page.object
+    assert "fonts" not in page.object
+    assert "no <b>fonts</b>" in caplog.text
+
+
+def test_an_escaped_exception_is_logged_and_told_without_its_text(caplog):
+    pn.extension(notifications=True)
+    app.tell(ValueError("<script>alert(1)</script>"))
+    assert "alert(1)" in caplog.text
+
+
+class FakeStore:
+    """Notes what it is asked."""
+
+    def __init__(self):
+        self.requested, self.closed = [], False
+
+    def request(self, key):
+        self.requested.append(key)
+
+    def close(self):
+        self.closed = True
+
+
+def test_the_server_begins_with_the_opening_preset(monkeypatch):
+    fake = FakeStore()
+    compiled = []
+    monkeypatch.setattr(app_hooks, "shared_store", lambda: fake)
+    monkeypatch.setattr(tig, "compile_kernels", lambda: compiled.append(True))
+    app_hooks.on_server_loaded(None)
+    assert compiled
+    assert fake.requested[0] == (tig.PRESETS["booted-block-low-mass"], FIDELITY)
+    assert {design for design, _ in fake.requested} == set(tig.PRESETS.values())
+    app_hooks.on_server_unloaded(None)
+    assert fake.closed

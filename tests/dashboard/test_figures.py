@@ -1,0 +1,175 @@
+"""Figures as plain data: what stands in their sources, and when axes move."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from bokeh.models import HoverTool
+from hypothesis import given
+from hypothesis import strategies as st
+
+import trackig_core as tig
+from dashboard.figures import ForceFigure, InsertionGainFigure, nice_step, settled_range
+
+ENDS = st.tuples(st.floats(-200, 200), st.floats(0.1, 200)).map(lambda pair: (pair[0], pair[0] + pair[1]))
+
+
+@given(current=ENDS, data=ENDS)
+def test_axes_always_hold_the_data(current, data):
+    low, high = settled_range(current, *data, step=5)
+    assert low <= data[0]
+    assert data[1] <= high
+
+
+@given(current=ENDS, data=ENDS)
+def test_axes_settle_at_once(current, data):
+    settled = settled_range(current, *data, step=5)
+    assert settled_range(settled, *data, step=5) == settled
+
+
+def test_axes_stay_put_while_the_data_fill_half_of_them():
+    assert settled_range((-40, 20), -21, 9, step=5) == (-40, 20)
+
+
+def test_axes_grow_when_data_would_leave():
+    assert settled_range((-40, 20), -41, 9, step=5) == (-45, 10)
+
+
+def test_axes_shrink_when_the_data_fill_less_than_half():
+    assert settled_range((-100, 20), -20, 9, step=5) == (-20, 10)
+
+
+@pytest.mark.parametrize(("span", "step"), [(10, 1), (11, 2), (25, 5), (60, 10), (0.3, 0.05), (170, 20)])
+def test_steps_are_one_two_or_five(span, step):
+    assert nice_step(span) == pytest.approx(step)
+
+
+@pytest.fixture
+def gain():
+    return InsertionGainFigure()
+
+
+def changed(picture, **frequencies):
+    """Return a picture with other natural frequencies."""
+    natural = dataclasses.replace(picture.solution.natural_frequencies, **frequencies)
+    return dataclasses.replace(
+        picture, solution=dataclasses.replace(picture.solution, natural_frequencies=natural)
+    )
+
+
+def louder(picture, decibels):
+    """Return a picture with a higher insertion gain."""
+    solution = picture.solution
+    gain = dataclasses.replace(solution.gain, levels=solution.insertion_gain + decibels)
+    return dataclasses.replace(picture, solution=dataclasses.replace(solution, gain=gain))
+
+
+@pytest.mark.parametrize("preset", ["slab-track", "booted-block-low-mass"])
+def test_the_curve_is_the_solution(gain, picture, preset):
+    gain.show(picture(preset))
+    data = gain.bands.data
+    np.testing.assert_array_equal(data["level"], picture(preset).solution.insertion_gain)
+    np.testing.assert_array_equal(data["centre"], tig.BAND_CENTRES)
+    np.testing.assert_array_equal([*data["left"], data["right"][-1]], tig.BAND_EDGES)
+    assert tuple(data["label"]) == tig.BAND_LABELS
+    assert np.isnan(data["preset"]).all()
+
+
+def test_the_ghost_is_the_preset(gain, picture):
+    gain.show(picture("slab-track"), picture("booted-sleeper"))
+    ghost = picture("booted-sleeper").solution.insertion_gain
+    np.testing.assert_array_equal(gain.bands.data["preset"], ghost)
+    entries = {item.label.value: item.visible for item in gain.model.legend[0].items}
+    assert entries == {"as in Table 1": True, "this design": True}
+    gain.show(picture("slab-track"))
+    entries = {item.label.value: item.visible for item in gain.model.legend[0].items}
+    assert entries == {"as in Table 1": False, "this design": True}
+
+
+def test_bands_carry_nominal_labels(gain):
+    axis = gain.model.xaxis[0]
+    assert [axis.major_label_overrides[tick] for tick in axis.ticker.ticks] == list(tig.BAND_LABELS)
+
+
+def test_hover_tells_band_and_value(gain, picture):
+    gain.show(picture("booted-block-low-mass"))
+    (hover,) = gain.model.select({"type": HoverTool})
+    assert [field for _, field in hover.tooltips] == ["@label Hz", "@level_text", "@preset_text"]
+    shown = [float(text.removesuffix(" dB").replace("−", "-")) for text in gain.bands.data["level_text"]]
+    np.testing.assert_allclose(shown, gain.bands.data["level"], atol=0.05001)
+
+
+def marker(gain, name):
+    return gain.model.select_one({"name": name}), gain.model.select_one({"name": f"{name}_label"})
+
+
+def test_markers_stand_at_the_natural_frequencies(gain, picture):
+    gain.show(picture("booted-block-low-mass"))
+    natural = picture("booted-block-low-mass").solution.natural_frequencies
+    for name, frequency in (("loaded_track", natural.loaded_track), ("coupled_block", natural.coupled_block)):
+        line, label = marker(gain, name)
+        assert line.visible
+        assert line.location == label.x == frequency
+    assert marker(gain, "loaded_track")[1].text == f"loaded track {natural.loaded_track:.1f} Hz"
+
+
+def test_a_single_stage_track_has_no_block_to_mark(gain, picture):
+    gain.show(picture("booted-block-low-mass"))
+    gain.show(picture("slab-track"))
+    line, label = marker(gain, "coupled_block")
+    assert not line.visible
+    assert not label.text.strip()
+
+
+def test_a_frequency_beyond_the_axis_is_told_at_its_end(gain, picture):
+    gain.show(changed(picture("booted-block-low-mass"), coupled_block=2251.0))
+    line, label = marker(gain, "coupled_block")
+    assert not line.visible
+    assert label.x == tig.BAND_EDGES[-1]
+    assert (label.text, label.text_align) == ("coupled block 2251 Hz →", "right")
+
+
+def test_a_label_near_the_right_end_stands_left_of_its_line(gain, picture):
+    gain.show(changed(picture("booted-block-low-mass"), coupled_block=400.0, loaded_track=30.0))
+    assert marker(gain, "coupled_block")[1].text_align == "right"
+    assert marker(gain, "loaded_track")[1].text_align == "left"
+
+
+def test_the_level_axis_holds_the_curve_and_then_stays(gain, picture):
+    gain.show(picture("booted-block-low-mass"))
+    ends = (gain.model.y_range.start, gain.model.y_range.end)
+    assert ends[0] < gain.bands.data["level"].min()
+    assert gain.bands.data["level"].max() < ends[1]
+    gain.show(louder(picture("booted-block-low-mass"), 2.0))
+    assert (gain.model.y_range.start, gain.model.y_range.end) == ends
+
+
+def test_a_zoomed_axis_is_left_alone(gain, picture):
+    gain.show(picture("slab-track"))
+    gain.model.y_range.update(start=-5, end=5)
+    gain.show(picture("booted-block-high-mass"))
+    assert (gain.model.y_range.start, gain.model.y_range.end) == (-5, 5)
+    assert gain.model.y_range.reset_start < gain.bands.data["level"].min()
+
+
+def test_the_forces_are_drawn_in_kilonewton(picture):
+    force = ForceFigure()
+    shown = picture("booted-block-low-mass")
+    force.show(shown)
+    solution = tig.solve(tig.PRESETS["booted-block-low-mass"])
+    data = force.samples.data
+    scale = np.abs(solution.total_force).max() / 1000
+    np.testing.assert_allclose(data["time"], solution.time, atol=1e-6)
+    np.testing.assert_allclose(data["total"], solution.total_force / 1000, atol=1e-6 * scale)
+    np.testing.assert_allclose(
+        data["loaded_support"], solution.loaded_support_force / 1000, atol=1e-6 * scale
+    )
+    assert force.model.y_range.start <= shown.total_force.min()
+    assert shown.total_force.max() <= force.model.y_range.end
+
+
+def test_both_forces_have_a_name_and_a_hover():
+    force = ForceFigure()
+    names = [item.label.value for item in force.model.legend[0].items]
+    assert names == ["all supports", "support under the wheel"]
+    assert len(force.model.select({"type": HoverTool})) == len(names)

@@ -1,0 +1,105 @@
+"""Views in process: the status line, the frequencies, the three pictures."""
+
+import numpy as np
+import pytest
+
+from dashboard.state import Outcome
+from dashboard.style import duration_text
+from dashboard.views.explore import Explore
+from dashboard.views.frequencies import Frequencies, frequencies_html
+from dashboard.views.status import Status, status_html, status_words
+
+
+@pytest.fixture
+def outcome():
+    return Outcome()
+
+
+def test_the_status_follows_a_solve(outcome, picture):
+    status = Status(outcome, lambda *_: None)
+    assert "Not solved yet" in status.text.object
+    outcome.busy = True
+    assert "Solving …" in status.text.object
+    shown = picture("slab-track")
+    outcome.param.update(picture=shown, busy=False)
+    assert f"Solved in {duration_text(shown.seconds)}" in status.text.object
+    outcome.from_cache = True
+    assert "From cache" in status.text.object
+
+
+def test_notes_of_the_solution_are_told(outcome, fake_picture, picture):
+    design = picture("slab-track").design
+    outcome.picture = fake_picture(design, notes=("time step halved once", "record extended"))
+    assert status_words(outcome).endswith(" · time step halved once · record extended")
+
+
+def test_a_problem_is_told_before_the_old_picture(outcome, picture):
+    outcome.param.update(picture=picture("slab-track"), problem="The solver failed.")
+    assert status_words(outcome) == "The solver failed."
+    assert 'class="problem"' in status_html(outcome)
+
+
+def test_a_problem_is_forgotten_while_the_next_solve_runs(outcome):
+    outcome.param.update(problem="The solver failed.", busy=True)
+    assert status_words(outcome) == "Solving …"
+    assert 'class="problem"' not in status_html(outcome)
+
+
+def test_no_text_becomes_markup(outcome):
+    outcome.problem = "pad_stiffness = '<img src=x onerror=alert(1)>'"
+    assert "<img" not in status_html(outcome)
+
+
+def test_only_a_long_solve_shows_progress_and_can_be_stopped(outcome):
+    stopped = []
+    status = Status(outcome, stopped.append)
+    outcome.busy = True
+    assert not status.stop.visible
+    outcome.progress = 0.42
+    assert status.stop.visible
+    assert status.progress.visible
+    assert status.progress.value == 42
+    status.stop.param.trigger("clicks")
+    assert len(stopped) == 1
+    outcome.param.update(busy=False, progress=None)
+    assert not status.stop.visible
+    assert not status.progress.visible
+
+
+def test_frequencies_are_those_of_the_solution(outcome, picture):
+    view = Frequencies(outcome)
+    assert view.pane.object == ""
+    outcome.picture = picture("booted-block-low-mass")
+    natural = outcome.picture.solution.natural_frequencies
+    for frequency in (natural.loaded_track, natural.coupled_block, natural.block_on_boot, *natural.cut_on):
+        digits = f"{frequency:.1f}" if frequency < 100 else f"{frequency:.0f}"
+        assert f">{digits} Hz<" in view.pane.object
+
+
+def test_a_single_stage_track_says_that_it_has_no_block(picture):
+    natural = picture("slab-track").solution.natural_frequencies
+    text = frequencies_html(natural)
+    assert "one stage" in text
+    assert "boot" not in text
+
+
+def test_all_pictures_are_redrawn_together(outcome, picture):
+    view = Explore(outcome)
+    for preset in ("booted-block-low-mass", "slab-track"):
+        outcome.param.update(picture=picture(preset), preset_picture=picture("booted-sleeper"))
+        solution = picture(preset).solution
+        np.testing.assert_array_equal(view.insertion_gain.bands.data["level"], solution.insertion_gain)
+        np.testing.assert_allclose(
+            view.force.samples.data["total"], picture(preset).total_force, rtol=1e-6, atol=1e-6
+        )
+        assert f"{solution.natural_frequencies.loaded_track:.1f}"[:3] in view.frequencies.pane.object
+    ghost = picture("booted-sleeper").solution.insertion_gain
+    np.testing.assert_array_equal(view.insertion_gain.bands.data["preset"], ghost)
+
+
+def test_a_view_made_late_shows_what_is_there(outcome, picture):
+    outcome.picture = picture("slab-track")
+    view = Explore(outcome)
+    np.testing.assert_array_equal(
+        view.insertion_gain.bands.data["level"], outcome.picture.solution.insertion_gain
+    )
