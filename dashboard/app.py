@@ -11,11 +11,13 @@ import param
 from panel.util import edit_readonly
 
 from dashboard import style
+from dashboard.checker import Checker
 from dashboard.controls import Controls
 from dashboard.runner import Runner, shared_store
-from dashboard.state import DesignInputs, Outcome
+from dashboard.state import DesignInputs, Outcome, Presentation
 from dashboard.views.explore import Explore
 from dashboard.views.status import Status
+from dashboard.views.verify import Verify
 
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports"
@@ -43,21 +45,33 @@ def build(store=None):
         The page, its first design solved or being solved.
     """
     pn.extension(notifications=True, reconnect=True, exception_handler=tell)
-    inputs, outcome = DesignInputs(), Outcome()
+    inputs, outcome, presentation = DesignInputs(), Outcome(), Presentation()
     runner = Runner(inputs, outcome, store or shared_store())
     runner.start()
+    Checker(outcome)
     pn.state.on_session_destroyed(runner.close)
-    return page(Controls(inputs), Status(outcome, runner.stop), [Explore(outcome)])
+    views = [Explore(outcome, presentation), Verify(outcome, presentation)]
+    return page(Controls(inputs), Status(outcome, runner.stop), tabs(outcome, views))
 
 
-def page(controls, status, views):
-    """Return the page around controls, status line and views, the latter as tabs when there are several."""
-    tabs = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
+def tabs(outcome, views):
+    """Return the views as tabs; the outcome is told when the checks come into sight."""
+    shown = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
+
+    def tell_outcome(event):
+        outcome.checking = isinstance(views[event.new], Verify)
+
+    shown.param.watch(tell_outcome, "active")
+    return shown
+
+
+def page(controls, status, main):
+    """Return the page around controls, status line and tabs."""
     whole = pmui.Page(
         title=TITLE,
         header=[pmui.Typography(SUBTITLE, variant="body1", sx=style.SUBTITLE, margin=(4, 0, 0, 16))],
         sidebar=[controls],
-        main=[status, tabs if len(views) > 1 else views[0]],
+        main=[status, main],
         sidebar_width=style.SIDEBAR_WIDTH,
         theme_config=style.THEME,
         sx=style.PAGE,

@@ -85,7 +85,7 @@ def nice_step(span):
     return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= rough)
 
 
-class _AxisEnds:
+class AxisEnds:
     """The ends of one axis: they move by :func:`settled_range`, unless the user has zoomed."""
 
     def __init__(self, ends):
@@ -93,6 +93,7 @@ class _AxisEnds:
         self._home = ends
 
     def show(self, low, high, step):
+        """Make sure that the axis shows what lies from ``low`` to ``high``."""
         home = settled_range(self._home, low, high, step)
         if home == self._home:
             return
@@ -166,11 +167,10 @@ class InsertionGainFigure:
     def __init__(self):
         nothing = np.full(tig.BAND_CENTRES.size, np.nan)
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(nothing, nothing))
-        self._levels = _AxisEnds((-30.0, 20.0))
-        self.model = _figure(
+        self._levels = AxisEnds((-30.0, 20.0))
+        self.model = blank_figure(
             name="insertion_gain_figure",
             x_axis_type="log",
-            x_range=Range1d(*BAND_AXIS, bounds=BAND_AXIS),
             y_range=self._levels.model,
             x_axis_label="One-third-octave band, Hz",
             y_axis_label="Insertion gain, dB",
@@ -182,14 +182,8 @@ class InsertionGainFigure:
 
     def _draw_bands(self):
         plot = self.model
-        plot.xaxis.ticker = FixedTicker(ticks=list(tig.BAND_CENTRES), minor_ticks=[])
-        plot.xaxis.major_label_overrides = dict(zip(tig.BAND_CENTRES, tig.BAND_LABELS, strict=True))
-        plot.xgrid.visible = False
-        plot.add_layout(
-            Span(
-                location=0, dimension="width", line_color=style.PRESET_GHOST, line_width=style.THIN_LINE_WIDTH
-            )
-        )
+        show_bands(plot)
+        plot.add_layout(zero_line())
         plot.quad(
             left="left",
             right="right",
@@ -222,25 +216,27 @@ class InsertionGainFigure:
         plot.add_tools(HoverTool(renderers=[dots], mode="vline", tooltips=tooltips))
         plot.legend.location = "bottom_left"
 
-    def show(self, picture, preset_picture=None):
-        """Draw a picture, and behind it that of the preset it departs from.
+    def name_axis(self, words):
+        """Say on the axis which insertion gain is drawn."""
+        self.model.yaxis.axis_label = words
+
+    def show(self, levels, preset_levels, natural):
+        """Draw insertion gain, and behind it that of the preset it departs from.
 
         Parameters
         ----------
-        picture : Picture
-            What is drawn.
-        preset_picture : Picture or None
-            What it is compared with.
+        levels : numpy.ndarray (21,)
+            Insertion gain [dB].
+        preset_levels : numpy.ndarray (21,) or None
+            What it is compared with [dB].
+        natural : trackig_core.NaturalFrequencies
+            What is marked.
         """
-        levels = picture.solution.insertion_gain
-        preset = np.full_like(levels, np.nan)
-        if preset_picture is not None:
-            preset = preset_picture.solution.insertion_gain
+        preset = np.full_like(levels, np.nan) if preset_levels is None else preset_levels
         seen = np.concatenate([levels, preset[np.isfinite(preset)], LEAST_LEVELS])
         self._levels.show(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM, LEVEL_STEP)
         self.bands.data = _band_columns(levels, preset)
-        self._preset_entry.visible = preset_picture is not None
-        natural = picture.solution.natural_frequencies
+        self._preset_entry.visible = preset_levels is not None
         self._loaded_track.show(natural.loaded_track)
         self._coupled_block.show(natural.coupled_block)
 
@@ -271,8 +267,8 @@ class ForceFigure:
 
     def __init__(self):
         self.samples = ColumnDataSource(name="force", data={"time": [], "loaded_support": [], "total": []})
-        self._forces = _AxisEnds((-1.0, 1.0))
-        self.model = _figure(
+        self._forces = AxisEnds((-1.0, 1.0))
+        self.model = blank_figure(
             name="force_figure",
             x_range=Range1d(*TIME_AXIS),
             y_range=self._forces.model,
@@ -352,7 +348,23 @@ TIME_HOVER = f"""
 """
 
 
-def _figure(**options):
+def show_bands(plot, every=1):
+    """Give a figure's frequency axis all bands, edge to edge; label every band, or one in some."""
+    plot.x_range = Range1d(*BAND_AXIS, bounds=BAND_AXIS)
+    plot.xaxis.ticker = FixedTicker(ticks=list(tig.BAND_CENTRES[::every]), minor_ticks=[])
+    plot.xaxis.major_label_overrides = dict(zip(tig.BAND_CENTRES, tig.BAND_LABELS, strict=True))
+    plot.xgrid.visible = False
+
+
+def zero_line():
+    """Return a line at zero on the value axis."""
+    return Span(
+        location=0, dimension="width", line_color=style.PRESET_GHOST, line_width=style.THIN_LINE_WIDTH
+    )
+
+
+def blank_figure(**options):
+    """Return an empty figure with the tools that all have."""
     plot = figure(
         tools=[PanTool(), BoxZoomTool(), WheelZoomTool(dimensions="width"), ResetTool(), SaveTool()],
         toolbar_location="right",

@@ -72,10 +72,15 @@ def take_picture(key, progress, cancelled):
 
 
 @functools.cache
+def workers():
+    """Return the threads that all sessions of this process share."""
+    return ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="solver")
+
+
+@functools.cache
 def shared_store():
     """Return the store that all sessions of this process share; the first call makes it."""
-    workers = ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="solver")
-    return SolutionStore(take_picture, workers, CAPACITY)
+    return SolutionStore(take_picture, workers(), CAPACITY)
 
 
 class _StoppedError(Exception):
@@ -192,18 +197,33 @@ class Runner:
                 self._publish(document, progress=job.fraction)
 
     def _publish(self, document, **changes):
-        # models may change only under the document's lock, which a next-tick callback holds
-        if document is None or document.session_context is None:
-            self._apply(changes)
-        else:
-            document.add_next_tick_callback(partial(self._apply, changes))
+        publish(self.outcome, document, **changes)
 
-    def _apply(self, changes):
-        try:
-            self.outcome.param.update(**changes)
-        except Exception:
-            log.exception("A solution could not be drawn")
-            self.outcome.param.update(busy=False, progress=None, problem=NOT_DRAWN)
+
+def publish(outcome, document, **changes):
+    """Change an outcome from a coroutine; what watches it may then draw.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        What changes.
+    document : bokeh.document.Document or None
+        The session's document: models may change only under its lock, which a next-tick callback holds.
+    **changes
+        New values by name.
+    """
+    if document is None or document.session_context is None:
+        _apply(outcome, changes)
+    else:
+        document.add_next_tick_callback(partial(_apply, outcome, changes))
+
+
+def _apply(outcome, changes):
+    try:
+        outcome.param.update(**changes)
+    except Exception:
+        log.exception("A solution could not be drawn")
+        outcome.param.update(busy=False, progress=None, problem=NOT_DRAWN)
 
 
 def readable(error):

@@ -179,8 +179,65 @@ class Picture:
         return self.solution.design
 
 
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """A picture, and what theory says of it.
+
+    Attributes
+    ----------
+    picture : Picture
+        What was checked.
+    theory : trackig_core.Verification or None
+        Exact answers and convergence studies; None if there are none.
+    problem : str
+        Why there are none, else empty.
+    """
+
+    picture: Picture
+    theory: tig.Verification | None
+    problem: str = ""
+
+
+class Presentation(param.Parameterized):
+    """How insertion gain is reckoned from a spectrum: a matter of looking, which needs no new solution."""
+
+    summation = param.Selector(
+        default="energy",
+        objects={"Summed energy (paper)": "energy", "Coherent force": "coherent"},
+        label="Over the supports",
+    )
+    reference = param.Selector(
+        default="line",
+        objects={"Straight line (paper)": "line", "Rigid track": "rigid"},
+        label="Against",
+    )
+
+    def levels(self, solution, spectrum=None):
+        """Return the insertion gain of a solution, as chosen.
+
+        Parameters
+        ----------
+        solution : trackig_core.Solution
+            The solution.
+        spectrum : trackig_core.ForceSpectrum, optional
+            Another spectrum of the same design, in place of the solution's own.
+
+        Returns
+        -------
+        numpy.ndarray (21,)
+            Insertion gain [dB].
+        """
+        return tig.insertion_gain(
+            solution.spectrum if spectrum is None else spectrum,
+            solution.design,
+            solution.natural_frequencies.loaded_track,
+            reference=self.reference,
+            summation=self.summation,
+        ).levels
+
+
 class Outcome(param.Parameterized):
-    """The last good picture, and how the solver fares."""
+    """The last good picture, how the solver fares, and what theory says of the picture."""
 
     picture = param.ClassSelector(class_=Picture, default=None, allow_None=True, doc="Last good solution.")
     preset_picture = param.ClassSelector(
@@ -191,4 +248,8 @@ class Outcome(param.Parameterized):
         default=None, bounds=(0, 1), allow_None=True, doc="Part of a long run that is done; None when short."
     )
     from_cache = param.Boolean(default=False, doc="Whether the picture was there already.")
+    checking = param.Boolean(default=False, doc="Whether anybody looks at the checks.")
+    checked = param.ClassSelector(
+        class_=Checked, default=None, allow_None=True, doc="The picture that was last held against theory."
+    )
     problem = param.String(default="", doc="Why the picture is not that of the inputs; empty when it is.")

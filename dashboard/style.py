@@ -23,7 +23,10 @@ COUPLED_BLOCK = "#00966e"
 PRESET_GHOST = "#808080"
 """The preset from which a modified design departs; also axes and zero lines."""
 
-FIGURE_COLOURS = (THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST)
+THEORY = "#9c5fb5"
+"""What comes from theory: exact curves."""
+
+FIGURE_COLOURS = (THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST)
 
 APP_BAR = "#17324d"
 
@@ -41,6 +44,8 @@ THEME = {
 """Material themes of the page by mode."""
 
 FILL_ALPHA = 0.22
+BAR_ALPHA = 0.8
+LEGEND_ALPHA = 0.7
 LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
 DOT_SIZE = 9
@@ -62,6 +67,16 @@ def duration_text(seconds):
 def level_text(level):
     """Return a level [dB] with its sign and one decimal; a true minus, so that columns align."""
     return f"{level:+.1f} dB".replace("-", "−")
+
+
+LEAST_DIFFERENCE = 1e-6
+"""Differences of levels below this are not told apart [dB]."""
+
+
+def difference_text(difference):
+    """Return a small difference of levels [dB], greater than zero: one figure, or two decimals."""
+    decimals = max(2, -math.floor(math.log10(difference)))
+    return f"{difference:.{decimals}f} dB"
 
 
 def quantity_text(value):
@@ -99,8 +114,10 @@ def _figure_css(height):
     return f":host {{ flex: none !important; height: {height} !important; }}"
 
 
-TALL = _figure_css("max(330px, calc(53vh - 110px))")
-LOW = _figure_css("max(270px, calc(47vh - 100px))")
+TALL = _figure_css("max(300px, calc(53vh - 150px))")
+LOW = _figure_css("max(250px, calc(47vh - 140px))")
+MEDIUM = _figure_css("300px")
+SHORT = _figure_css("180px")
 """Heights of the figures: together with their headings they fill the window, and no less than is legible."""
 
 FREQUENCIES_CSS = f"""
@@ -109,6 +126,7 @@ FREQUENCIES_CSS = f"""
 .main {{ flex: 1; }}
 h3 {{ margin: 0; font-size: 15px; font-weight: 500; }}
 p {{ margin: 0; font-size: 14px; line-height: 1.35; }}
+p.observed {{ font-weight: 500; margin-bottom: 4px; font-variant-numeric: tabular-nums; }}
 p.figure {{ font-size: 38px; font-weight: 700; line-height: 1.2; font-variant-numeric: tabular-nums; }}
 .loaded-track .figure {{ color: {LOADED_TRACK}; }}
 .coupled-block .figure {{ color: {COUPLED_BLOCK}; }}

@@ -19,42 +19,58 @@ class Explore(Viewer):
     ----------
     outcome : Outcome
         Whose picture is shown.
+    presentation : Presentation
+        How its insertion gain is reckoned.
     """
 
     title = "Explore"
 
-    def __init__(self, outcome):
+    def __init__(self, outcome, presentation):
         super().__init__()
-        self._outcome = outcome
+        self._outcome, self._presentation = outcome, presentation
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
-        outcome.param.watch(self._show, ["picture", "preset_picture"])
+        self.choices = [
+            pmui.Select.from_param(parameter, size="small", width=CHOICE_WIDTH, margin=(6, 6, 0, 6))
+            for parameter in (presentation.param.summation, presentation.param.reference)
+        ]
+        outcome.param.watch(self._show, "picture")
+        outcome.param.watch(self._show_gain, "preset_picture")
+        presentation.param.watch(self._show_gain, ["reference", "summation"])
         self._show()
 
     def _show(self, *_):
-        picture = self._outcome.picture
+        if self._outcome.picture is not None:
+            self.force.show(self._outcome.picture)
+        self._show_gain()
+
+    def _show_gain(self, *_):
+        chosen = self._presentation
+        self.insertion_gain.name_axis(gain_axis(chosen))
+        picture, preset = self._outcome.picture, self._outcome.preset_picture
         if picture is None:
             return
-        self.insertion_gain.show(picture, self._outcome.preset_picture)
-        self.force.show(picture)
+        self.insertion_gain.show(
+            chosen.levels(picture.solution),
+            None if preset is None else chosen.levels(preset.solution),
+            picture.solution.natural_frequencies,
+        )
 
     def __panel__(self):
         """Return what is put on the page."""
+        gain = pmui.Paper(
+            pmui.Row(caption(GAIN_TITLE, ""), pn.HSpacer(), *self.choices, sizing_mode="stretch_width"),
+            pmui.Typography(GAIN_WORDS, variant="body2", color="text.secondary", margin=(0, 12, 4, 12)),
+            bokeh_pane(self.insertion_gain.model),
+            **PAPER,
+        )
+        force = pmui.Paper(caption(FORCE_TITLE, FORCE_WORDS), bokeh_pane(self.force.model), **PAPER)
+        frequencies = pmui.Paper(caption("Natural frequencies", ""), self.frequencies, **PAPER)
         return pmui.Grid(
-            pmui.Grid(panel(GAIN_TITLE, GAIN_WORDS, self.insertion_gain.model), size=12),
-            pmui.Grid(panel(FORCE_TITLE, FORCE_WORDS, self.force.model), size=WIDE),
-            pmui.Grid(
-                pmui.Paper(
-                    caption("Natural frequencies", ""),
-                    self.frequencies,
-                    elevation=0,
-                    sizing_mode="stretch_width",
-                    margin=0,
-                    sx=style.PANEL,
-                ),
-                size=NARROW,
-            ),
+            pmui.Grid(gain, size=12),
+            pmui.Grid(force, size=WIDE),
+            pmui.Grid(frequencies, size=NARROW),
             container=True,
             spacing=1,
             sizing_mode="stretch_width",
@@ -65,7 +81,15 @@ class Explore(Viewer):
 WIDE, NARROW = {"xs": 12, "lg": 7}, {"xs": 12, "lg": 5}
 
 GAIN_TITLE = "Insertion gain"
-GAIN_WORDS = "above 0 dB the track amplifies, below it isolates"
+GAIN_WORDS = (
+    "Above 0 dB the track amplifies, below it isolates. Summed energy counts waves that run along the rail, "
+    "coherent force lets them cancel: up to 12 dB apart from 60 to 200 Hz."
+)
+
+CHOICE_WIDTH = 240
+
+PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": style.PANEL}
+"""What a panel of the page is made of."""
 
 FORCE_TITLE = "Force into the ground"
 FORCE_WORDS = "after a step of 0.1 mm between wheel and rail"
@@ -80,13 +104,16 @@ def caption(title, words):
     )
 
 
-def panel(title, words, model):
-    """Return a figure under its heading."""
-    return pmui.Paper(
-        caption(title, words),
-        pn.pane.Bokeh(model, sizing_mode="stretch_width", margin=0),
-        elevation=0,
-        sizing_mode="stretch_width",
-        margin=0,
-        sx=style.PANEL,
-    )
+def bokeh_pane(model):
+    """Return a figure as wide as its place."""
+    return pn.pane.Bokeh(model, sizing_mode="stretch_width", margin=0)
+
+
+def gain_axis(presentation):
+    """Return what the insertion gain's axis is called, the choice named in it."""
+    summed, reference = SUMMATION_AXIS[presentation.summation], REFERENCE_AXIS[presentation.reference]
+    return f"Insertion gain, dB ({summed} / {reference})"
+
+
+SUMMATION_AXIS = {"energy": "summed energy", "coherent": "coherent force"}
+REFERENCE_AXIS = {"line": "line", "rigid": "rigid"}

@@ -84,17 +84,25 @@ def frequencies_html(natural):
     """Return the natural frequencies as HTML, made of numbers and of this module's own words."""
     block = natural.coupled_block
     cards = (
-        ("loaded-track", style.frequency_text(natural.loaded_track), *LOADED_TRACK),
+        ("loaded-track", natural.loaded_track, natural.observed_loaded_track, *LOADED_TRACK),
         (
             "coupled-block",
-            NONE if block is None else style.frequency_text(block),
+            block,
+            natural.observed_coupled_block,
             COUPLED_BLOCK[0],
             NO_BLOCK if block is None else COUPLED_BLOCK[1],
         ),
     )
-    mains = "".join(
-        f'<section class="main {key}"><h3>{name}</h3><p class="figure">{figure}</p><p>{words}</p></section>'
-        for key, figure, name, words in cards
-    )
+    mains = "".join(_card(*card) for card in cards)
     rows = "".join(f"<dt>{figure}</dt><dd>{words}</dd>" for figure, words in explanations(natural))
     return f'<div class="mains">{mains}</div><dl>{rows}</dl>'
+
+
+def _card(key, computed, observed, name, words):
+    """Return one main frequency: computed in large figures, then as observed in the run, then what it is."""
+    figure = NONE if computed is None else style.frequency_text(computed)
+    seen = "" if observed is None else f"Observed in the run: {style.frequency_text(observed)}"
+    return (
+        f'<section class="main {key}"><h3>{name}</h3><p class="figure">{figure}</p>'
+        f'<p class="observed">{seen}</p><p>{words}</p></section>'
+    )

@@ -235,3 +235,47 @@ def test_the_dark_theme_reaches_figures_and_text(dashboard):
     dashboard.wait_for_function(f"light => ({background})() != light", arg=light)
     colour = dashboard.get_by_role("status").evaluate("element => getComputedStyle(element).color")
     assert min(map(int, re.findall(r"\d+", colour)[:3])) > 150
+
+
+def test_the_choice_of_sum_and_reference_is_drawn_and_named(dashboard):
+    dashboard.get_by_role("combobox", name="Over the supports").click()
+    dashboard.get_by_text("Coherent force", exact=True).click()
+    dashboard.get_by_role("combobox", name="Against").click()
+    dashboard.get_by_text("Rigid track", exact=True).click()
+    wait_for_levels(dashboard, tig.solve(OPENING, reference="rigid", summation="coherent").insertion_gain)
+    label = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').left[0].axis_label"
+    assert dashboard.evaluate(label) == "Insertion gain, dB (coherent force / rigid)"
+
+
+def test_the_run_is_held_against_theory_while_the_tab_is_open(dashboard):
+    dashboard.get_by_role("tab", name="Verify").click()
+    expect(dashboard.get_by_text("Largest difference 0.11 dB at 315 Hz")).to_be_visible()
+    stepped, exact = tig.solve(OPENING), tig.solve(OPENING, "exact")
+    np.testing.assert_allclose(column(dashboard, "comparison", "run"), stepped.insertion_gain)
+    np.testing.assert_allclose(column(dashboard, "comparison", "exact"), exact.insertion_gain, atol=1e-9)
+    handle = slider(dashboard, "Boot stiffness, kN/mm")
+    handle.press("PageUp")
+    expect(box(dashboard, "Boot stiffness, kN/mm")).not_to_have_value("28")
+    stiffer = OPENING.replace(boot_stiffness=shown(dashboard, "Boot stiffness, kN/mm") * 1e6)
+    dashboard.wait_for_function(
+        """level => Math.abs(
+            Bokeh.documents[0].get_model_by_name("comparison").data.exact[9] - level) < 1e-6""",
+        arg=float(tig.solve(stiffer, "exact").insertion_gain[9]),
+    )
+    size = """name => {
+        const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
+        const box = view.el.getBoundingClientRect()
+        return [box.width, box.height]
+    }"""
+    for name in (
+        "comparison",
+        "difference",
+        "receptance",
+        "time_step",
+        "element",
+        "stiffness",
+        "loss_factor",
+    ):
+        width, height = dashboard.evaluate(size, f"{name}_figure")
+        assert width > 300
+        assert height > 150

@@ -1,9 +1,12 @@
 """Views in process: the status line, the frequencies, the three pictures."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
-from dashboard.state import Outcome
+import trackig_core as tig
+from dashboard.state import Outcome, Presentation
 from dashboard.style import duration_text
 from dashboard.views.explore import Explore
 from dashboard.views.frequencies import Frequencies, frequencies_html
@@ -84,7 +87,7 @@ def test_a_single_stage_track_says_that_it_has_no_block(picture):
 
 
 def test_all_pictures_are_redrawn_together(outcome, picture):
-    view = Explore(outcome)
+    view = Explore(outcome, Presentation())
     for preset in ("booted-block-low-mass", "slab-track"):
         outcome.param.update(picture=picture(preset), preset_picture=picture("booted-sleeper"))
         solution = picture(preset).solution
@@ -99,7 +102,29 @@ def test_all_pictures_are_redrawn_together(outcome, picture):
 
 def test_a_view_made_late_shows_what_is_there(outcome, picture):
     outcome.picture = picture("slab-track")
-    view = Explore(outcome)
+    view = Explore(outcome, Presentation())
     np.testing.assert_array_equal(
         view.insertion_gain.bands.data["level"], outcome.picture.solution.insertion_gain
     )
+
+
+def test_the_choice_of_sum_and_reference_redraws_without_solving(outcome, picture):
+    presentation = Presentation()
+    outcome.param.update(picture=picture("booted-sleeper"), preset_picture=picture("slab-track"))
+    view = Explore(outcome, presentation)
+    for choice in ({"summation": "coherent"}, {"reference": "rigid"}):
+        presentation.param.update(**choice)
+        chosen = {"reference": presentation.reference, "summation": presentation.summation}
+        for column, name in (("level", "booted-sleeper"), ("preset", "slab-track")):
+            expected = tig.solve(tig.PRESETS[name], **chosen).insertion_gain
+            np.testing.assert_allclose(view.insertion_gain.bands.data[column], expected, atol=1e-9)
+    assert view.insertion_gain.model.yaxis.axis_label == "Insertion gain, dB (coherent force / rigid)"
+
+
+def test_observed_frequencies_stand_beside_the_computed_ones(picture):
+    natural = picture("booted-block-low-mass").solution.natural_frequencies
+    text = frequencies_html(dataclasses.replace(natural, observed_loaded_track=38.7))
+    assert "Observed in the run: 38.7 Hz" in text
+    assert "Observed in the run: 301 Hz" in text
+    assert text.count("Observed") == 2
+    assert frequencies_html(dataclasses.replace(natural, observed_coupled_block=None)).count("Observed") == 1

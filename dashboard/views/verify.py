@@ -1,0 +1,228 @@
+"""The tab in which the run is held against theory, and theory against others.
+
+Under each picture stands what it proves and what it does not. The one rule: every figure in a sentence
+is computed from what is drawn beside it.
+"""
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+import trackig_core as tig
+from dashboard import style
+from dashboard.check_figures import (
+    ComparisonFigure,
+    DampingFigure,
+    DifferenceFigure,
+    ElementFigure,
+    ReceptanceFigure,
+    TimeStepFigure,
+)
+from dashboard.state import PRESET_LABELS
+from dashboard.views.explore import PAPER, bokeh_pane, caption, gain_axis
+
+FINE = tig.Lattice(elements_per_bay=24)
+"""Lattice of the twin that is compared with an independent package."""
+
+CURVE = np.geomspace(tig.BAND_EDGES[0], tig.BAND_EDGES[-1], 300)
+"""Frequencies of smooth curves [Hz]."""
+
+
+NOTHING = np.full_like(CURVE, np.nan)
+
+
+class Verify(Viewer):
+    """Run against exact answer, twin against an independent package, convergence, and damping.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Whose checked picture is shown.
+    presentation : Presentation
+        How its insertion gain is reckoned.
+    """
+
+    title = "Verify"
+
+    def __init__(self, outcome, presentation):
+        super().__init__()
+        self._outcome, self._presentation = outcome, presentation
+        self.comparison = ComparisonFigure()
+        self.difference = DifferenceFigure(self.comparison.bands)
+        self.receptance = ReceptanceFigure()
+        self.time_step = TimeStepFigure()
+        self.element = ElementFigure()
+        self.stiffness = DampingFigure("stiffness", "Stiffness over that at 50 Hz", "top_left")
+        self.loss_factor = DampingFigure("loss_factor", "Loss factor", "bottom_left")
+        self.words = {
+            key: pmui.Typography("", variant="body1", margin=(2, 14, 10, 14))
+            for key in ("run", "peer", "convergence", "damping")
+        }
+        self.peer = pmui.Select(
+            label="Track of Table 1",
+            options={PRESET_LABELS.get(key, key): key for key in tig.peer_receptances()},
+            value=next(iter(tig.peer_receptances())),
+            size="small",
+            width=240,
+            margin=(6, 12, 0, 12),
+        )
+        self.peer.param.watch(self._show_peer, "value")
+        outcome.param.watch(self._show, "checked")
+        presentation.param.watch(self._show_run, ["reference", "summation"])
+        self._show_peer()
+        self._show()
+
+    def _show(self, *_):
+        self._show_run()
+        checked = self._outcome.checked
+        if checked is None or checked.theory is None:
+            return
+        self._show_convergence(checked)
+        self._show_damping(checked.picture.solution)
+
+    def _show_run(self, *_):
+        checked, chosen = self._outcome.checked, self._presentation
+        self.comparison.name_axis(gain_axis(chosen))
+        if checked is None:
+            self.words["run"].object = "Not checked yet."
+            return
+        if checked.theory is None:
+            self.words["run"].object = checked.problem
+            return
+        solution = checked.picture.solution
+        run, exact, scheme = (
+            chosen.levels(solution, spectrum)
+            for spectrum in (None, checked.theory.exact, checked.theory.scheme)
+        )
+        self.comparison.show(run, exact)
+        self.difference.show(run - exact)
+        self.words["run"].object = (
+            f"Largest difference {largest(run - exact)} between time stepping and the exact answer of the "
+            "same lattice in continuous time: the cost of the time step. Against the exact answer of the "
+            f"stepping scheme itself, its z-transform: {largest(run - scheme)}. This proves that the scheme "
+            "is solved as it is written; it does not prove that rail, ground and wheel are as modelled."
+        )
+
+    def _show_peer(self, *_):
+        peer = tig.peer_receptances()[self.peer.value]
+        design = tig.PRESETS[self.peer.value]
+        self.receptance.show(peer, CURVE, tig.receptance(design, CURVE, lattice=FINE))
+        twin = tig.receptance(design, peer.frequency, lattice=FINE)
+        below = peer.frequency < BELOW
+        gap = np.abs(20 * np.log10(np.abs(twin / peer.euler)))[below].max()
+        shear = 20 * np.log10(np.abs(peer.timoshenko / peer.euler))
+        worst = np.argmax(np.abs(shear))
+        near = style.difference_text(gap)
+        at_5_hz, at_worst = style.level_text(shear[0]), style.level_text(shear[worst])
+        self.words["peer"].object = (
+            "The rail's point receptance over a support, by the open-source package Rolland 26.08a1: its "
+            f"Euler rail is within {near} of the twin up to 315 Hz. This proves rail and supports by other "
+            "hands; it does not prove the beam. A rail that shears (Timoshenko) would change the receptance "
+            f"by {at_5_hz} at 5 Hz and by {at_worst} at {tig.BAND_LABELS[worst]} Hz. trackig leaves shear "
+            "out, and the ground is rigid for both."
+        )
+
+    def _show_convergence(self, checked):
+        theory, solution = checked.theory, checked.picture.solution
+        grid = solution.grid
+        self.time_step.show(theory, grid.dt)
+        self.element.show(theory, solution.design.fastener_spacing, grid.dx)
+        time_error = np.interp(grid.dt, theory.time_steps, theory.first_order_errors)
+        element_error = theory.element_errors[
+            np.argmin(np.abs(theory.elements_per_bay - grid.elements_per_bay))
+        ]
+        in_time, along = style.difference_text(time_error), style.difference_text(element_error)
+        self.words["convergence"].object = (
+            "Largest error in any band (summed energy against the straight line): "
+            f"{in_time} at this run's time step, {along} at its {grid.elements_per_bay} elements a bay (both "
+            "dash-dotted). Errors that fall along the grey slopes prove that finer grids lead to one answer: "
+            "the paper's damping memory is of first order, its beam of second. They do not prove that this "
+            "grid is fine enough for every question."
+        )
+
+    def _show_damping(self, solution):
+        design = solution.design
+        laws = {"pad": solution.pad_law, "boot": solution.boot_law}
+        stated = {"pad": design.pad_loss_factor, "boot": design.boot_loss_factor}
+        stiffness, loss_factor = {}, {}
+        for part, law in laws.items():
+            present = law is not None
+            stiffness[part] = law.dynamic_stiffness(CURVE).real / law.stiffness(50.0) if present else NOTHING
+            stiffness[f"{part}_stated"] = NOTHING
+            loss_factor[part] = law.loss_factor(CURVE) if present else NOTHING
+            loss_factor[f"{part}_stated"] = np.full_like(CURVE, stated[part]) if present else NOTHING
+        self.stiffness.show(CURVE, **stiffness)
+        self.loss_factor.show(CURVE, **loss_factor)
+        worst = max(law.worst_error for law in laws.values() if law is not None)
+        ends = solution.pad_law.dynamic_stiffness([5.0, 500.0]).real / solution.pad_law.stiffness(50.0)
+        self.words["damping"].object = (
+            f"Three relaxation terms hold the loss factor within {worst:.1%} of the stated (thin) from 5 to "
+            f"500 Hz. A causal damper stiffens with frequency: this pad from {ends[0]:.2f} of its stated "
+            f"stiffness at 5 Hz to {ends[1]:.2f} at 500 Hz. This proves the fit; it does not prove that a "
+            "real pad has the same loss factor at all frequencies."
+        )
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        run = pmui.Paper(
+            caption("Time stepping against the exact answer", ""),
+            bokeh_pane(self.comparison.model),
+            bokeh_pane(self.difference.model),
+            self.words["run"],
+            **PAPER,
+        )
+        peer = pmui.Paper(
+            pmui.Row(
+                caption("The exact twin against an independent package", ""),
+                pn.HSpacer(),
+                self.peer,
+                sizing_mode="stretch_width",
+            ),
+            bokeh_pane(self.receptance.model),
+            self.words["peer"],
+            **PAPER,
+        )
+        convergence = _pair(
+            "Convergence", self.time_step.model, self.element.model, self.words["convergence"]
+        )
+        damping = _pair(
+            "Memory of the damping", self.stiffness.model, self.loss_factor.model, self.words["damping"]
+        )
+        return pmui.Grid(
+            *(pmui.Grid(each, size=12) for each in (run, peer, convergence, damping)),
+            container=True,
+            spacing=1,
+            sizing_mode="stretch_width",
+            margin=(0, 8, 8, 8),
+        )
+
+
+BELOW = 317.0
+"""Frequency up to which the independent package is compared in words [Hz]: the 315 Hz band's centre."""
+
+HALF = {"xs": 12, "lg": 6}
+
+
+def largest(differences):
+    """Return the largest of some differences per band (21,) [dB], in words."""
+    band = int(np.argmax(np.abs(differences)))
+    size = abs(differences[band])
+    if size < style.LEAST_DIFFERENCE:
+        return f"below {style.LEAST_DIFFERENCE:f} dB"
+    return f"{style.difference_text(size)} at {tig.BAND_LABELS[band]} Hz"
+
+
+def _pair(title, left, right, words):
+    """Return two figures side by side under one heading, and the words below them."""
+    return pmui.Paper(
+        caption(title, ""),
+        pmui.Grid(
+            pmui.Grid(bokeh_pane(left), size=HALF),
+            pmui.Grid(bokeh_pane(right), size=HALF),
+            container=True,
+            sizing_mode="stretch_width",
+        ),
+        words,
+        **PAPER,
+    )
