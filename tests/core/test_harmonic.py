@@ -160,3 +160,32 @@ def test_track_decay_rate_is_the_decay_far_from_the_force():
 
 def test_default_lattice_is_infinite_and_continuous():
     assert Lattice(3, None, None) == INFINITE
+
+
+@pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two-stage", "single-stage"])
+@pytest.mark.parametrize("support", [0, 1, 6])
+def test_reciprocity(design, support):
+    """Force on the ground per force on the rail is movement of the rail per movement of the ground."""
+    bays, per_bay, frequency = 21, 3, 80.0
+    dx, count, squared = design.fastener_spacing / 3, bays * per_bay, (2 * np.pi * frequency) ** 2
+    pad, boot = (None if law is None else law.dynamic_stiffness(frequency) for law in laws(design))
+    size = count + (bays if design.two_stage else 0)
+    matrix, load = np.zeros((size, size), dtype=complex), np.zeros(size, dtype=complex)
+    second = np.roll(np.eye(count), 1, axis=0) - 2 * np.eye(count) + np.roll(np.eye(count), -1, axis=0)
+    matrix[:count, :count] = design.rail.bending_stiffness / dx**3 * second @ second
+    matrix[:count, :count] -= squared * design.rail.mass_per_metre * dx * np.eye(count)
+    for bay in range(bays):
+        if design.two_stage:
+            pair = [bay * per_bay, count + bay]
+            matrix[np.ix_(pair, pair)] += pad * np.array([[1, -1], [-1, 1]])
+            matrix[count + bay, count + bay] += boot - squared * design.block_mass
+        else:
+            matrix[bay * per_bay, bay * per_bay] += pad
+    # the ground moves by one metre under one support
+    if design.two_stage:
+        load[count + support] = boot
+    else:
+        load[support * per_bay] = pad
+    moved = np.linalg.solve(matrix, load)[0]
+    track = waves(design, [frequency], Lattice(per_bay, bays))
+    assert track.transfer[0] * track.receptance(support)[0] == pytest.approx(moved, rel=1e-9)
