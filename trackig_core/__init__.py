@@ -6,6 +6,8 @@ gain of track support systems using the finite difference method". SI units thro
 The one rule: what a user may rely on is named here; the modules below may change.
 """
 
+from importlib.metadata import version
+
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.catalogue import PRESETS, RAILS
 from trackig_core.convergence import element_errors, time_step_errors
@@ -25,6 +27,8 @@ from trackig_core.results import (
 from trackig_core.simulate import SolveCancelled
 from trackig_core.solver import compile_kernels, solve
 from trackig_core.verification import Verification, verify
+
+__version__ = version("trackig")
 
 __all__ = [
     "BAND_CENTRES",

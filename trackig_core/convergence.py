@@ -10,7 +10,7 @@ or from the same track with many more elements.
 import numpy as np
 
 from trackig_core.gain import insertion_gain
-from trackig_core.harmonic import INFINITE, Lattice, banded_spectrum
+from trackig_core.harmonic import INFINITE, Lattice, banded_spectrum, refuse_if_unbounded
 from trackig_core.modes import loaded_track
 
 FINEST_ELEMENTS = 96
@@ -33,7 +33,13 @@ def time_step_errors(design, time_steps, memory_order):
     -------
     numpy.ndarray (steps,)
         Largest difference in any band from continuous time [dB].
+
+    Raises
+    ------
+    DesignError
+        If the exact answer has no bound, for want of any loss.
     """
+    refuse_if_unbounded(design)
     lattices = [Lattice(time_step=step, memory_order=memory_order) for step in time_steps]
     return _errors(design, lattices, INFINITE)
 
@@ -52,7 +58,13 @@ def element_errors(design, elements_per_bay):
     -------
     numpy.ndarray (numbers,)
         Largest difference in any band from :data:`FINEST_ELEMENTS` [dB].
+
+    Raises
+    ------
+    DesignError
+        If the exact answer has no bound, for want of any loss.
     """
+    refuse_if_unbounded(design)
     lattices = [Lattice(elements_per_bay=number) for number in elements_per_bay]
     return _errors(design, lattices, Lattice(elements_per_bay=FINEST_ELEMENTS))
 

@@ -178,8 +178,8 @@ def make_grid(
     notes = ()
     if halvings:
         notes = (
-            f"time step halved {_times(halvings)} to 1/{1 / dt:.0f} s: at a spacing of "
-            f"{design.fastener_spacing:g} m the scheme is stable only below {stable * 1e6:.3g} µs",
+            f"time step halved {_times(halvings)} to 1/{1 / dt:.0f} s for stability "
+            f"(spacing {design.fastener_spacing:g} m)",
         )
     grid = Grid(bays, elements_per_bay, dx, dt, round(record / dt), notes)
     _refuse_if_too_large(grid, record)

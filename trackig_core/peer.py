@@ -8,7 +8,7 @@ Timoshenko rail G = 81 GPa and kappa = 0.4. Hz and m/N.
 The one rule: the file is data from elsewhere, and nothing here changes it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 
@@ -29,9 +29,9 @@ class PeerReceptance:
         Receptance with a rail that shears and has rotational inertia.
     """
 
-    frequency: np.ndarray
-    euler: np.ndarray
-    timoshenko: np.ndarray
+    frequency: np.ndarray = field(repr=False)
+    euler: np.ndarray = field(repr=False)
+    timoshenko: np.ndarray = field(repr=False)
 
 
 @cache

@@ -25,7 +25,15 @@ FIT_FREQUENCIES = np.geomspace(5.0, 500.0, 100)
 """Frequencies at which the fitted loss factor is compared with its target (100,) [Hz]."""
 FIT_FREQUENCIES.flags.writeable = False
 
-_BOUNDS = (np.log([1e-9] * 3 + [1e-6] * 3), np.log([1e4] * 3 + [1e2] * 3))
+SHORTEST_TIME = 1e-4
+"""Least relaxation time [s]. A shorter one would lie above the bands, where it is but a stiffer spring, and
+so near the time step that the paper's recursion of the memory turns unstable."""
+
+LONGEST_TIME = 0.3
+"""Greatest relaxation time [s]. A longer one would lie below the bands, where it is but a softer spring, and
+outlast the record."""
+
+_BOUNDS = (np.log([1e-9] * 3 + [SHORTEST_TIME] * 3), np.log([1e4] * 3 + [LONGEST_TIME] * 3))
 """Least and greatest logarithm of strengths over static stiffness and mean loss factor [-], of times [s]."""
 
 NEGLIGIBLE = 1e-9

@@ -46,12 +46,12 @@ class TimeHistory:
         Whether the low-passed force had decayed by 80 dB at the end of the record.
     """
 
-    time: np.ndarray
-    support_force: np.ndarray
-    multiplicity: np.ndarray
-    rail_displacement: np.ndarray
-    block_displacement: np.ndarray | None
-    low_pass: np.ndarray
+    time: np.ndarray = field(repr=False)
+    support_force: np.ndarray = field(repr=False)
+    multiplicity: np.ndarray = field(repr=False)
+    rail_displacement: np.ndarray = field(repr=False)
+    block_displacement: np.ndarray | None = field(repr=False)
+    low_pass: np.ndarray = field(repr=False)
     time_step: float
     step: float
     steps: int
@@ -74,9 +74,9 @@ class ForceSpectrum:
         Height of the step in contact compression that excites the track.
     """
 
-    frequency: np.ndarray
-    energy: np.ndarray
-    coherent_energy: np.ndarray
+    frequency: np.ndarray = field(repr=False)
+    energy: np.ndarray = field(repr=False)
+    coherent_energy: np.ndarray = field(repr=False)
     step: float
 
 
@@ -96,9 +96,9 @@ class InsertionGain:
         ``"energy"`` (squared support forces summed) or ``"coherent"`` (forces summed, then squared).
     """
 
-    levels: np.ndarray
-    band_energy: np.ndarray
-    reference_energy: np.ndarray
+    levels: np.ndarray = field(repr=False)
+    band_energy: np.ndarray = field(repr=False)
+    reference_energy: np.ndarray = field(repr=False)
     reference: str
     summation: str
 
@@ -163,13 +163,13 @@ class Solution:
 
     design: TrackDesign
     fidelity: str
-    gain: InsertionGain
-    spectrum: ForceSpectrum
+    gain: InsertionGain = field(repr=False)
+    spectrum: ForceSpectrum = field(repr=False)
     natural_frequencies: NaturalFrequencies
-    pad_law: Relaxation
-    boot_law: Relaxation | None
+    pad_law: Relaxation = field(repr=False)
+    boot_law: Relaxation | None = field(repr=False)
     grid: Grid | None = None
-    history: TimeHistory | None = None
+    history: TimeHistory | None = field(default=None, repr=False)
     notes: tuple[str, ...] = field(default=())
 
     @property

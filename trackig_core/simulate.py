@@ -84,7 +84,8 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, 
     step : float
         Step that squeezes the contact spring [m].
     progress : callable, optional
-        Called now and then with the fraction done of the record as far as is known, 0 to 1.
+        Called now and then with the fraction done, 0 to 1. The first record counts for half of it, the
+        first extension for half of the rest, and so on, since nobody knows how many there will be.
     cancelled : callable, optional
         Asked now and then; the run ends when it answers true.
 
@@ -108,6 +109,8 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, 
         if record > LONGEST_RECORD or grid.duration_estimate(record) > DURATION_LIMIT:
             break
         samples = np.concatenate([samples, run.collect(run.steps_done, progress, cancelled)])
+    if progress is not None:
+        progress(1.0)
 
     supports = grid.half_bays
     multiplicity = np.full(supports, 2.0)
@@ -224,6 +227,7 @@ class _Run:
         self._factor = decimation(grid.dt)
         self._before = np.zeros((self.taps.size - 1, grid.half_bays + 2))
         self.steps_done = 0
+        self._fraction = 0.0
 
     def sample_times(self, count):
         """Return the time that each decimated sample stands for [s]: the filter's centre."""
@@ -235,7 +239,7 @@ class _Run:
         tail, columns = self._before.shape
         samples = np.empty((steps // self._factor, columns))
         buffer = np.empty((tail + BLOCK_SAMPLES * self._factor, columns))
-        target = self.steps_done + steps
+        began = self._fraction
         for first in range(0, len(samples), BLOCK_SAMPLES):
             if cancelled is not None and cancelled():
                 raise SolveCancelled("the run was cancelled")
@@ -250,5 +254,6 @@ class _Run:
                 time = self.steps_done * self._dt
                 raise FloatingPointError(f"the run left the finite numbers {time:.3g} s after its start")
             if progress is not None:
-                progress(self.steps_done / target)
+                self._fraction = began + (1 - began) / 2 * (first + len(part)) / len(samples)
+                progress(self._fraction)
         return samples

@@ -10,6 +10,8 @@ import numpy as np
 
 from trackig_core import harmonic
 from trackig_core.catalogue import PRESETS
+from trackig_core.convergence import time_step_errors
+from trackig_core.design import DesignError, TrackDesign
 from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.grid import make_grid
 from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
@@ -21,6 +23,9 @@ from trackig_core.spectrum import block_to_rail, force_spectrum
 
 POOR_FIT = 0.1
 """Relative error of a fitted loss factor above which the solution says so [-]."""
+
+LARGE_STEP_ERROR = 0.5
+"""Error of insertion gain in any band, made by the time step, above which the solution says so [dB]."""
 
 FIDELITIES = ("paper", "exact")
 """Fidelities that :func:`solve` offers."""
@@ -66,10 +71,12 @@ def solve(
     SolveCancelled
         If ``cancelled`` answered true.
     DesignError
-        If the exact solution has no bound, for want of any loss.
+        If ``design`` is no design, or its exact solution has no bound for want of any loss.
     ValueError
         If a choice is not one of the above.
     """
+    if not isinstance(design, TrackDesign):
+        raise DesignError("design", design, "a TrackDesign, such as PRESETS['slab-track']")
     check_choice("fidelity", fidelity, FIDELITIES)
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
@@ -83,7 +90,7 @@ def solve(
         grid = make_grid(design)
         history = simulate(design, grid, progress=progress, cancelled=cancelled)
         spectrum = force_spectrum(history)
-        notes = grid.notes + _record_notes(grid, history)
+        notes = grid.notes + _record_notes(grid, history) + _step_notes(design, grid)
     return Solution(
         design=design,
         fidelity=fidelity,
@@ -125,19 +132,25 @@ def _fit_notes(pad_law, boot_law):
 
 
 def _record_notes(grid, history):
+    """Return what is to be said of the length of a record."""
     record = history.steps * grid.dt
     notes = ()
     if history.steps > grid.steps:
-        notes += (
-            f"record extended from {grid.steps * grid.dt:g} s to {record:g} s, "
-            "for the force to die down by 80 dB",
-        )
+        notes += (f"record extended to {record:g} s, until the force had died down",)
     if not history.decayed:
-        notes += (
-            f"the force had not died down by 80 dB when the record ended at {record:g} s: "
-            "sharp resonances are less exact than usual",
-        )
+        notes += (f"the force had not died down by 80 dB at {record:g} s: sharp resonances are less exact",)
     return notes
+
+
+def _step_notes(design, grid):
+    """Return what is to be said of the error that the time step makes, if it is large."""
+    try:
+        error = time_step_errors(design, [grid.dt], memory_order=1)[0]
+    except DesignError:  # without loss there is neither a damping memory nor an exact answer
+        return ()
+    if error <= LARGE_STEP_ERROR:
+        return ()
+    return (f"the paper's time step and damping memory cost up to {error:.1f} dB in a band",)
 
 
 def compile_kernels():

@@ -7,14 +7,14 @@ the exact answer of its own scheme (the z-transform) by mistakes alone. Hz, dB, 
 The one rule: nothing here is taken from the run but its grid; the run is only compared.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from trackig_core.convergence import element_errors, time_step_errors
 from trackig_core.grid import stable_time_step
 from trackig_core.harmonic import Lattice, banded_spectrum, exact_spectrum, refuse_if_unbounded
-from trackig_core.results import ForceSpectrum
+from trackig_core.results import ForceSpectrum, Solution
 
 FACTORS = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
 """Time steps of the convergence study, in parts of the run's [-]; those that are unstable are left out."""
@@ -45,11 +45,11 @@ class Verification:
 
     exact: ForceSpectrum
     scheme: ForceSpectrum
-    time_steps: np.ndarray
-    first_order_errors: np.ndarray
-    second_order_errors: np.ndarray
-    elements_per_bay: np.ndarray
-    element_errors: np.ndarray
+    time_steps: np.ndarray = field(repr=False)
+    first_order_errors: np.ndarray = field(repr=False)
+    second_order_errors: np.ndarray = field(repr=False)
+    elements_per_bay: np.ndarray = field(repr=False)
+    element_errors: np.ndarray = field(repr=False)
 
 
 def verify(solution):
@@ -67,11 +67,15 @@ def verify(solution):
 
     Raises
     ------
+    TypeError
+        If it is no solution.
     ValueError
         If the solution was not stepped in time.
     DesignError
         If the exact answer has no bound, for want of any loss.
     """
+    if not isinstance(solution, Solution):
+        raise TypeError(f"{type(solution).__name__} is no Solution: give what solve() returned")
     grid, design = solution.grid, solution.design
     if grid is None:
         raise ValueError(

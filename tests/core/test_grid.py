@@ -80,7 +80,7 @@ def test_a_spacing_of_200_mm_halves_the_time_step_and_says_so():
     assert grid.dt == PAPER_TIME_STEP / 2
     assert grid.steps == 2 * 262144
     assert len(grid.notes) == 1
-    assert "halved once to 1/262144 s" in grid.notes[0]
+    assert "halved once to 1/262144 s for stability" in grid.notes[0]
     assert "0.2 m" in grid.notes[0]
 
 

@@ -24,7 +24,7 @@ def in_decibels(energy, reference):
 
 def test_golden_insertion_gain_of_the_paper_run(golden, solved, preset):
     case, solution = golden["cases"][preset], solved(preset)
-    assert np.abs(solution.insertion_gain - case["insertion_gain_db"]).max() < 0.005
+    assert np.abs(solution.insertion_gain - case["insertion_gain_db"]).max() < 3e-4
     coherent = tig.insertion_gain(
         solution.spectrum,
         solution.design,
@@ -32,7 +32,7 @@ def test_golden_insertion_gain_of_the_paper_run(golden, solved, preset):
         reference="rigid",
         summation="coherent",
     )
-    assert np.abs(coherent.levels - case["insertion_gain_coherent_rigid_db"]).max() < 0.005
+    assert np.abs(coherent.levels - case["insertion_gain_coherent_rigid_db"]).max() < 3e-4
     assert solution.band_centres == pytest.approx(case["band_hz"], abs=1e-4)
     assert solution.notes == ()
 
@@ -42,7 +42,7 @@ def test_golden_energy_of_the_paper_run(golden, solved, preset):
     at = np.searchsorted(spectrum.frequency, np.array(case["spectrum_hz"]) - 1e-6)
     assert spectrum.frequency[at] == pytest.approx(case["spectrum_hz"])
     expected = case["summed_force_energy_density_for_0p1mm_step"]
-    assert in_decibels(spectrum.energy[at], expected).max() < 1e-3
+    assert in_decibels(spectrum.energy[at], expected).max() < 1e-4
 
 
 def test_the_run_is_its_own_z_transform(solved, preset):
@@ -51,8 +51,8 @@ def test_the_run_is_its_own_z_transform(solved, preset):
     frequency = solution.spectrum.frequency[solution.spectrum.frequency <= 500]
     twin = exact_spectrum(solution.design, frequency, 1e-4, Lattice(3, RING_BAYS, solution.grid.dt, 1))
     count = len(frequency)
-    assert in_decibels(solution.spectrum.energy[:count], twin.energy).max() < 1e-3
-    assert in_decibels(solution.spectrum.coherent_energy[:count], twin.coherent_energy).max() < 1e-2
+    assert in_decibels(solution.spectrum.energy[:count], twin.energy).max() < 1e-4
+    assert in_decibels(solution.spectrum.coherent_energy[:count], twin.coherent_energy).max() < 1e-3
 
 
 def test_a_coarser_run_with_second_order_memory_is_its_own_z_transform():
@@ -114,15 +114,15 @@ def test_any_valid_design_has_a_finite_exact_solution(design):
 
 
 def test_the_exact_solution_is_the_limit_of_the_paper_run(solved, preset):
-    """Refining the step of a second-order run by four leaves 0.01 dB to the exact answer."""
+    """The paper's first-order memory costs up to 0.16 dB; with second-order memory 0.001 dB is left."""
     design = tig.PRESETS[preset]
     exact = tig.solve(design, "exact").insertion_gain
-    assert np.abs(solved(preset).insertion_gain - exact).max() < 0.2
-    for choice in ({"reference": "rigid"}, {"summation": "coherent"}):
-        frequencies = solved(preset).natural_frequencies
-        history = simulate(design, make_grid(design), memory_order=2)
-        stepped = tig.insertion_gain(force_spectrum(history), design, frequencies.loaded_track, **choice)
-        assert np.abs(stepped.levels - tig.solve(design, "exact", **choice).insertion_gain).max() < 0.01
+    assert np.abs(solved(preset).insertion_gain - exact).max() < 0.16
+    spectrum = force_spectrum(simulate(design, make_grid(design), memory_order=2))
+    loaded_track = solved(preset).natural_frequencies.loaded_track
+    for choice, left in (({}, 1e-3), ({"reference": "rigid"}, 1e-3), ({"summation": "coherent"}, 2e-3)):
+        stepped = tig.insertion_gain(spectrum, design, loaded_track, **choice)
+        assert np.abs(stepped.levels - tig.solve(design, "exact", **choice).insertion_gain).max() < left
 
 
 def test_light_damping_is_resolved_exactly():
@@ -190,3 +190,24 @@ print((after - before) / 1024)
 def test_presets_take_at_most_400_mb_above_the_bare_interpreter():
     run = subprocess.run([sys.executable, "-c", MEMORY_SCRIPT], capture_output=True, text=True, check=True)
     assert float(run.stdout) < 400
+
+
+@pytest.mark.parametrize("value", ["booted-block-low-mass", None, 3.0, SLAB.rail], ids=repr)
+def test_what_is_no_design_is_told(value):
+    with pytest.raises(tig.DesignError, match="give a TrackDesign"):
+        tig.solve(value)
+
+
+def test_results_show_themselves_in_a_few_lines(solved):
+    solution = solved("slab-track")
+    for shown in (solution, solution.spectrum, solution.history, solution.gain, tig.verify(solution)):
+        assert 10 < len(repr(shown)) < 1500
+    assert "loaded_track=146.0" in repr(solution)
+
+
+def test_a_costly_time_step_is_told():
+    steep = SLAB.replace(pad_loss_factor=tig.LossFactorCurve([(5, 0.01), (500, 0.5)]))
+    stepped, exact = tig.solve(steep), tig.solve(steep, "exact")
+    error = np.abs(stepped.insertion_gain - exact.insertion_gain).max()
+    assert error > 0.5
+    assert any(f"cost up to {error:.1f} dB" in note for note in stepped.notes)
