@@ -20,7 +20,7 @@ from dashboard.views.status import Status
 from dashboard.views.verify import Verify
 
 TITLE = "trackig"
-SUBTITLE = "insertion gain of railway track supports"
+SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
 
 log = logging.getLogger(__name__)
 
@@ -51,7 +51,7 @@ def build(store=None):
     Checker(outcome)
     pn.state.on_session_destroyed(runner.close)
     views = [Explore(outcome, presentation), Verify(outcome, presentation)]
-    return page(Controls(inputs), Status(outcome, runner.stop), tabs(outcome, views))
+    return page(Controls(inputs), Status(outcome, runner.stop, runner.solve_again), tabs(outcome, views))
 
 
 def tabs(outcome, views):

@@ -1,8 +1,8 @@
 """The sidebar: every input as a slider with a number box beside it, in the order of the load path.
 
 Sliders count in steps, since Page Up moves a browser's slider by ten units, whatever these are; they
-show the value itself, in the bubble, to screen readers and in the box. A box takes any number within
-the range, says what it takes when it gets something else, and never changes a number that was typed.
+show the value itself, to screen readers and in the box. A box takes any number within the range, with
+point or comma, says what it takes when it gets something else, and never changes a number that was typed.
 
 The one rule: a widget changes an input and nothing else; no widget watches another.
 """
@@ -15,7 +15,7 @@ from bokeh.models import CustomJSTickFormatter
 from panel.viewable import Viewer
 
 from dashboard.state import NUMBERS, SECOND_STAGE, STIFFNESSES, display_values, six_figures
-from dashboard.style import GROUP_HEADING, HIDDEN_LABEL, SLIDER, quantity_text
+from dashboard.style import GROUP_HEADING, HIDDEN_LABEL, SELECT_CSS, SLIDER, quantity_text
 
 STEPS_PER_DECADE = 100
 """Steps of a logarithmic slider from a value to its tenfold."""
@@ -23,7 +23,7 @@ STEPS_PER_DECADE = 100
 LOG_FIGURES = 3
 """Figures to which a logarithmic slider rounds; a box takes six."""
 
-FULL_WIDTH = {"sizing_mode": "stretch_width", "margin": (6, 12, 6, 16)}
+FULL_WIDTH = {"sizing_mode": "stretch_width", "margin": (2, 12, 4, 16), "stylesheets": [SELECT_CSS]}
 
 BOX_WIDTH = 92
 """Width of a number box [px]."""
@@ -55,6 +55,7 @@ class QuantityControl(Viewer):
             value=self._to_slider(self._value),
             format=self._formatter(),
             show_value=False,
+            tooltips=False,
             disabled=disabled,
             size="small",
             sx=SLIDER,
@@ -114,7 +115,7 @@ class QuantityControl(Viewer):
     def _box_typed(self, event):
         low, high = self._number.bounds
         try:
-            value = float(event.new)
+            value = float(event.new.replace(",", "."))
         except ValueError:
             value = math.nan
         if low <= value <= high:
@@ -153,9 +154,10 @@ class Controls(Viewer):
         super().__init__()
         self._inputs = inputs
         self.quantities = {name: QuantityControl(inputs, name) for name in NUMBERS}
-        self.preset = pmui.Select.from_param(inputs.param.preset, size="small", **FULL_WIDTH)
+        # Material's select opens by mouse only; the browser's own obeys the keyboard
+        self.preset = pn.widgets.Select.from_param(inputs.param.preset, **FULL_WIDTH)
         self.two_stage = pmui.Switch.from_param(inputs.param.two_stage, size="small", margin=(2, 12, 6, 16))
-        self.rail = pmui.Select.from_param(inputs.param.rail, size="small", **FULL_WIDTH)
+        self.rail = pn.widgets.Select.from_param(inputs.param.rail, **FULL_WIDTH)
         self.state = pmui.Typography(
             inputs.param.modified.rx.where("Modified", "As in Table 1"), variant="body2", margin=(6, 0, 0, 16)
         )

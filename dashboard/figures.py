@@ -85,6 +85,30 @@ def nice_step(span):
     return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= rough)
 
 
+def rungs(low, high):
+    """Return ends around data that lie on rungs 1, 2, 5, 10 ..., and a step that all of them share.
+
+    Rungs are far apart, so that an axis moves a few times while a peak grows tenfold, not at each frame.
+
+    Parameters
+    ----------
+    low, high : float
+        Least and greatest value, below and above zero.
+
+    Returns
+    -------
+    tuple of float
+        Lower end, upper end and step.
+    """
+    sizes = [max(abs(low), abs(high) / 5), max(abs(high), abs(low) / 5)]
+    powers = [10.0 ** math.floor(math.log10(size)) for size in sizes]
+    ends = [
+        next(factor * power for factor in (1, 2, 5, 10) if factor * power >= size)
+        for size, power in zip(sizes, powers, strict=True)
+    ]
+    return -ends[0], ends[1], min(powers)
+
+
 class AxisEnds:
     """The ends of one axis: they move by :func:`settled_range`, unless the user has zoomed."""
 
@@ -288,9 +312,9 @@ class ForceFigure:
 
     def _draw_forces(self):
         plot = self.model
-        for column, words, colour in (
-            ("total", "all supports", style.THIS_DESIGN),
-            ("loaded_support", "support under the wheel", style.LOADED_TRACK),
+        for column, words, colour, dash in (
+            ("total", "all supports", style.THIS_DESIGN, "solid"),
+            ("loaded_support", "support under the wheel", style.LOADED_TRACK, style.SECOND_DASH),
         ):
             line = plot.line(
                 x="time",
@@ -298,6 +322,7 @@ class ForceFigure:
                 source=self.samples,
                 line_color=colour,
                 line_width=style.THIN_LINE_WIDTH,
+                line_dash=dash,
                 legend_label=words,
             )
             time = CustomJSHover(args={"ends": plot.x_range}, code=TIME_HOVER)
@@ -322,7 +347,7 @@ class ForceFigure:
         """
         low = min(picture.total_force.min(), picture.loaded_support_force.min())
         high = max(picture.total_force.max(), picture.loaded_support_force.max())
-        self._forces.show(low, high, nice_step(high - low))
+        self._forces.show(*rungs(low, high))
         self.samples.data = {
             "time": picture.time.astype(np.float32),
             "loaded_support": picture.loaded_support_force.astype(np.float32),

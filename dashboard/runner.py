@@ -32,8 +32,9 @@ CAPACITY = 128
 LOOK_EVERY = 0.1
 """Seconds between looks at a solve under way."""
 
-LONG = 1.0
-"""Seconds after which a solve counts as long: it shows its progress, can be stopped, and gives way."""
+LONG = 2.0
+"""Seconds of work after which a solve counts as long: it shows its progress, can be stopped, and gives way
+to newer inputs. Time spent waiting for a worker does not count: else a busy server would finish none."""
 
 STOPPED = "Stopped. The pictures show the last track that was solved."
 
@@ -118,7 +119,7 @@ class Runner:
         design = self.inputs.to_design()
         picture = self._store.kept((design, FIDELITY))
         if picture is None:
-            self.inputs.param.trigger(*PHYSICAL)
+            self.solve_again()
         else:
             self.outcome.param.update(**self._success(design, picture, from_cache=True))
 
@@ -126,6 +127,10 @@ class Runner:
         """Give up the solve under way, and what waits behind it."""
         self._stopping = True
         self._pending = False
+
+    def solve_again(self, *_):
+        """Solve the inputs as they stand, after a stop or a failure."""
+        self.inputs.param.trigger(*PHYSICAL)
 
     def close(self, *_):
         """Stop watching and solving: the session is over."""
@@ -152,7 +157,8 @@ class Runner:
             picture, from_cache = await self._obtain(design, document)
             changes = self._success(design, picture, from_cache)
             self._publish(document, **changes)
-            if design != self.inputs.preset_design and changes["preset_picture"] is None:
+            modified = design != self.inputs.preset_design
+            if modified and changes["preset_picture"] is None and not self._pending:
                 ghost, _ = await self._obtain(self.inputs.preset_design, document)
                 self._publish(document, preset_picture=ghost)
         except _SupersededError:
@@ -183,7 +189,6 @@ class Runner:
             self._store.release(job)
 
     async def _wait(self, job, document):
-        began = time.monotonic()
         future = asyncio.wrap_future(job.future)
         # an abandoned job may still raise; nobody is left to hear it
         future.add_done_callback(lambda done: done.cancelled() or done.exception())
@@ -191,7 +196,7 @@ class Runner:
             await asyncio.wait({future}, timeout=LOOK_EVERY)
             if self._stopping:
                 raise _StoppedError
-            if not future.done() and time.monotonic() - began > LONG:
+            if not future.done() and job.began is not None and time.monotonic() - job.began > LONG:
                 if self._pending:
                     raise _SupersededError
                 self._publish(document, progress=job.fraction)

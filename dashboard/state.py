@@ -109,7 +109,11 @@ class DesignInputs(param.Parameterized):
     boot_stiffness = _number("boot_stiffness", 2, 200, 0.5, "Boot stiffness, kN/mm")
     boot_loss_factor = _number("boot_loss_factor", 0.01, 0.5, 0.01, "Boot loss factor")
     fastener_spacing = _number("fastener_spacing", 0.2, 1.0, 0.01, "Fastener spacing, m")
-    rail = param.Selector(default="60", objects=list(tig.RAILS), label="Rail section")
+    rail = param.Selector(
+        default="60",
+        objects={"60 (paper: 60 kg/m)" if key == "60" else key: key for key in tig.RAILS},
+        label="Rail section",
+    )
     wheel_mass = _number("wheel_mass", 200, 1500, 10, "Unsprung wheel mass, kg")
     contact_stiffness = _number("contact_stiffness", 200, 5000, 10, "Contact stiffness, kN/mm")
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
@@ -253,3 +257,8 @@ class Outcome(param.Parameterized):
         class_=Checked, default=None, allow_None=True, doc="The picture that was last held against theory."
     )
     problem = param.String(default="", doc="Why the picture is not that of the inputs; empty when it is.")
+
+    @property
+    def stale(self):
+        """Whether the picture is that of earlier inputs, and will be for a while."""
+        return bool(self.problem) or self.progress is not None

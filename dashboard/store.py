@@ -6,6 +6,7 @@ anybody still waits. The one rule: a job runs on as long as somebody waits for i
 """
 
 import threading
+import time
 from collections import OrderedDict
 from concurrent.futures import Future
 
@@ -24,6 +25,8 @@ class Job:
         Holds the value, or the exception that was raised instead.
     fraction : float
         Part of the work that is done, 0 to 1.
+    began : float or None
+        When a worker took it up, by ``time.monotonic`` [s]; None while it waits for one.
     from_cache : bool
         Whether the value was there when it was asked for.
     abandoned : bool
@@ -34,6 +37,7 @@ class Job:
         self.key = key
         self.future = Future()
         self.fraction = 0.0
+        self.began = None
         self.from_cache = False
         self.abandoned = False
         self.waiting = 0
@@ -136,6 +140,7 @@ class SolutionStore:
             self._running.clear()
 
     def _work(self, job):
+        job.began = time.monotonic()
         try:
             value = self._solve(job.key, job.report, job.is_abandoned)
         except BaseException:

@@ -48,9 +48,12 @@ BAR_ALPHA = 0.8
 LEGEND_ALPHA = 0.7
 LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
+SECOND_DASH = [7, 3]
+"""Tells the second of two curves from the first without colour."""
+
 DOT_SIZE = 9
 FONT = "Roboto, Helvetica, Arial, sans-serif"
-MARKER_LABEL_SIZE = "15px"
+MARKER_LABEL_SIZE = "19px"
 
 
 def frequency_text(frequency):
@@ -96,12 +99,24 @@ HIDDEN_LABEL = {
 """A box whose label only screen readers meet, the slider beside it showing the same words."""
 
 SIDEBAR_WIDTH = 330
+STATUS_HEIGHT = 32
+FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
+"""How pictures look that are those of the inputs, or of earlier ones."""
+
 SUBTITLE = {"color": "white", "opacity": 0.85}
 STATUS_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
-span { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
+div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
+[role="status"] { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 .problem { color: var(--danger-bg-color); font-weight: 500; }
 """
+SELECT_CSS = """
+select.bk-input { font-size: 15px; color: var(--panel-on-background-color); }
+select.bk-input { appearance: auto; background-image: none; padding-right: 6px; }
+select.bk-input option { color: var(--panel-on-background-color); background: var(--panel-background-color); }
+"""
+"""The browser's own select, legible from afar; its arrow follows the theme."""
+
 SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
 """A slider marks the preset's value with a tick."""
 

@@ -31,12 +31,16 @@ class Explore(Viewer):
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
+        self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
         self.choices = [
-            pmui.Select.from_param(parameter, size="small", width=CHOICE_WIDTH, margin=(6, 6, 0, 6))
+            pn.widgets.Select.from_param(
+                parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[style.SELECT_CSS]
+            )
             for parameter in (presentation.param.summation, presentation.param.reference)
         ]
         outcome.param.watch(self._show, "picture")
         outcome.param.watch(self._show_gain, "preset_picture")
+        outcome.param.watch(self._dim, ["problem", "progress"])
         presentation.param.watch(self._show_gain, ["reference", "summation"])
         self._show()
 
@@ -57,15 +61,20 @@ class Explore(Viewer):
             picture.solution.natural_frequencies,
         )
 
+    def _dim(self, *_):
+        for pane in (*self.panes, self.frequencies.pane):
+            pane.styles = style.STALE if self._outcome.stale else style.FRESH
+
     def __panel__(self):
         """Return what is put on the page."""
+        gain_pane, force_pane = self.panes
         gain = pmui.Paper(
             pmui.Row(caption(GAIN_TITLE, ""), pn.HSpacer(), *self.choices, sizing_mode="stretch_width"),
             pmui.Typography(GAIN_WORDS, variant="body2", color="text.secondary", margin=(0, 12, 4, 12)),
-            bokeh_pane(self.insertion_gain.model),
+            gain_pane,
             **PAPER,
         )
-        force = pmui.Paper(caption(FORCE_TITLE, FORCE_WORDS), bokeh_pane(self.force.model), **PAPER)
+        force = pmui.Paper(caption(FORCE_TITLE, FORCE_WORDS), force_pane, **PAPER)
         frequencies = pmui.Paper(caption("Natural frequencies", ""), self.frequencies, **PAPER)
         return pmui.Grid(
             pmui.Grid(gain, size=12),

@@ -14,7 +14,7 @@ LOADED_TRACK = (
 )
 COUPLED_BLOCK = (
     "Coupled block",
-    "The block bounces between pad and boot. Around it the track isolates less than it would.",
+    "The block bounces between pad and boot, the rail still. Above it the block isolates, too.",
 )
 NO_BLOCK = "This track has one stage: there is no block to bounce."
 

@@ -1,7 +1,7 @@
 """The status line: what the solver does, what it noted, and what went wrong.
 
-The one rule: it says in words whatever the pictures cannot show, and it is never taller than it
-needs to be, so that the pictures below stay put.
+The one rule: it says in words whatever the pictures cannot show, on one line whose height never
+changes, so that the pictures below stay put. What does not fit is told when the pointer rests on it.
 """
 
 import html
@@ -20,26 +20,19 @@ class Status(Viewer):
     ----------
     outcome : Outcome
         What is told.
-    on_stop : callable
-        Called when the user stops a long run.
+    on_stop, on_solve : callable
+        Called when the user stops a long run, or wants what was not solved to be solved after all.
     """
 
-    def __init__(self, outcome, on_stop):
+    def __init__(self, outcome, on_stop, on_solve):
         super().__init__()
         self._outcome = outcome
-        self.text = pn.pane.HTML("", stylesheets=[style.STATUS_CSS], margin=0)
+        self.text = pn.pane.HTML("", stylesheets=[style.STATUS_CSS], sizing_mode="stretch_width", margin=0)
         self.progress = pmui.LinearProgress(
-            value=0, variant="determinate", width=160, visible=False, margin=(15, 0, 0, 12)
+            value=0, variant="determinate", width=160, visible=False, margin=(14, 0, 0, 12)
         )
-        self.stop = pmui.Button(
-            label="Stop",
-            icon="stop",
-            size="small",
-            variant="text",
-            visible=False,
-            on_click=on_stop,
-            margin=(0, 0, 0, 8),
-        )
+        self.stop = _button("Stop", "stop", on_stop)
+        self.solve = _button("Solve", "play_arrow", on_solve)
         outcome.param.watch(self._show, ["picture", "busy", "progress", "from_cache", "problem"])
         self._show()
 
@@ -49,6 +42,7 @@ class Status(Viewer):
         long = outcome.busy and outcome.progress is not None
         self.progress.param.update(value=round(100 * (outcome.progress or 0)), visible=long)
         self.stop.visible = long
+        self.solve.visible = bool(outcome.problem) and not outcome.busy
 
     def __panel__(self):
         """Return what is put on the page."""
@@ -56,16 +50,30 @@ class Status(Viewer):
             self.text,
             self.progress,
             self.stop,
+            self.solve,
             sizing_mode="stretch_width",
-            min_height=30,
+            height=style.STATUS_HEIGHT,
             margin=(4, 8, 0, 8),
         )
+
+
+def _button(label, icon, on_click):
+    return pmui.Button(
+        label=label,
+        icon=icon,
+        size="small",
+        variant="text",
+        visible=False,
+        on_click=on_click,
+        margin=(0, 0, 0, 8),
+    )
 
 
 def status_html(outcome):
     """Return what an outcome has to say as HTML, whatever characters it is made of."""
     kind = "problem" if outcome.problem and not outcome.busy else "fine"
-    return f'<span role="status" class="{kind}">{html.escape(status_words(outcome))}</span>'
+    words = html.escape(status_words(outcome))
+    return f'<div role="status" class="{kind}" title="{words}">{words}</div>'
 
 
 def status_words(outcome):

@@ -59,13 +59,13 @@ class Verify(Viewer):
             key: pmui.Typography("", variant="body1", margin=(2, 14, 10, 14))
             for key in ("run", "peer", "convergence", "damping")
         }
-        self.peer = pmui.Select(
-            label="Track of Table 1",
+        self.peer = pn.widgets.Select(
+            label="Compared track of Table 1",
             options={PRESET_LABELS.get(key, key): key for key in tig.peer_receptances()},
             value=next(iter(tig.peer_receptances())),
-            size="small",
             width=240,
-            margin=(6, 12, 0, 12),
+            margin=(0, 12, 0, 12),
+            stylesheets=[style.SELECT_CSS],
         )
         self.peer.param.watch(self._show_peer, "value")
         outcome.param.watch(self._show, "checked")

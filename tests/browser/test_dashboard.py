@@ -46,6 +46,10 @@ def slider(page, label):
     return page.get_by_role("slider", name=label)
 
 
+def choose(page, label, option):
+    page.get_by_role("combobox", name=label, exact=True).select_option(option)
+
+
 def box(page, label):
     return page.get_by_role("textbox", name=f"{label}: type a number")
 
@@ -125,8 +129,7 @@ def test_nonsense_is_told_and_changes_nothing(dashboard):
 
 
 def test_a_preset_can_be_chosen_modified_and_come_back_to(dashboard):
-    dashboard.get_by_role("combobox", name="Track of Table 1").click()
-    dashboard.get_by_text("Slab track", exact=True).click()
+    choose(dashboard, "Track of Table 1", "Slab track")
     slab = tig.solve(tig.PRESETS["slab-track"]).insertion_gain
     wait_for_levels(dashboard, slab)
     expect(slider(dashboard, "Boot stiffness, kN/mm")).to_be_disabled()
@@ -143,6 +146,19 @@ def test_a_preset_can_be_chosen_modified_and_come_back_to(dashboard):
     expect(back).to_be_disabled()
 
 
+def test_presets_and_rails_are_chosen_by_key(dashboard):
+    presets = dashboard.get_by_role("combobox", name="Track of Table 1", exact=True)
+    presets.focus()
+    presets.press("ArrowDown")
+    high_mass = tig.PRESETS["booted-block-high-mass"]
+    wait_for_levels(dashboard, tig.solve(high_mass).insertion_gain)
+    rails = dashboard.get_by_role("combobox", name="Rail section")
+    rails.focus()
+    rails.press("ArrowDown")
+    other = high_mass.replace(rail=tig.RAILS["49E1"])
+    wait_for_levels(dashboard, tig.solve(other).insertion_gain)
+
+
 def test_single_stage_takes_block_and_boot_out_and_puts_them_back(dashboard):
     switch = dashboard.get_by_role("switch", name="Two-stage: blocks in boots")
     switch.click()
@@ -157,8 +173,7 @@ def test_single_stage_takes_block_and_boot_out_and_puts_them_back(dashboard):
 
 
 def test_a_long_run_can_be_stopped_and_leaves_the_last_picture(dashboard):
-    dashboard.get_by_role("combobox", name="Track of Table 1").click()
-    dashboard.get_by_text("Slab track", exact=True).click()
+    choose(dashboard, "Track of Table 1", "Slab track")
     before = tig.solve(tig.PRESETS["slab-track"]).insertion_gain
     wait_for_levels(dashboard, before)
     spacing = slider(dashboard, "Fastener spacing, m")
@@ -170,6 +185,25 @@ def test_a_long_run_can_be_stopped_and_leaves_the_last_picture(dashboard):
     dashboard.get_by_role("button", name="Stop").click()
     expect(dashboard.get_by_role("status")).to_contain_text("Stopped")
     wait_for_levels(dashboard, tig.solve(spaced).insertion_gain)
+    dashboard.get_by_role("button", name="Solve").click()
+    expect(dashboard.get_by_role("button", name="Stop")).to_be_visible()
+    choose(dashboard, "Track of Table 1", "Booted sleeper")
+    wait_for_levels(dashboard, tig.solve(tig.PRESETS["booted-sleeper"]).insertion_gain)
+
+
+def test_the_pictures_stay_put_whatever_the_status_says(open_dashboard):
+    page = open_dashboard(width=1024, height=768)
+    top = """() => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("insertion_gain_figure"))
+        .el.getBoundingClientRect().top"""
+    before = page.evaluate(top)
+    field = box(page, "Fastener spacing, m")
+    field.fill("0.2")
+    field.press("Enter")
+    expect(page.get_by_role("status")).to_contain_text("time step halved")
+    slider(page, "Boot loss factor").press("Home")
+    slider(page, "Pad loss factor").press("Home")
+    expect(page.get_by_role("button", name="Stop")).to_be_visible()
+    assert page.evaluate(top) == before
 
 
 def test_sessions_do_not_disturb_each_other(open_dashboard):
@@ -238,10 +272,8 @@ def test_the_dark_theme_reaches_figures_and_text(dashboard):
 
 
 def test_the_choice_of_sum_and_reference_is_drawn_and_named(dashboard):
-    dashboard.get_by_role("combobox", name="Over the supports").click()
-    dashboard.get_by_text("Coherent force", exact=True).click()
-    dashboard.get_by_role("combobox", name="Against").click()
-    dashboard.get_by_text("Rigid track", exact=True).click()
+    choose(dashboard, "Over the supports", "Coherent force")
+    choose(dashboard, "Against", "Rigid track")
     wait_for_levels(dashboard, tig.solve(OPENING, reference="rigid", summation="coherent").insertion_gain)
     label = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').left[0].axis_label"
     assert dashboard.evaluate(label) == "Insertion gain, dB (coherent force / rigid)"

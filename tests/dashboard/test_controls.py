@@ -149,7 +149,7 @@ def test_sliders_mark_the_preset_s_value(inputs):
 
 def test_the_rail_section_can_be_chosen(inputs):
     controls = Controls(inputs)
-    assert list(controls.rail.options) == list(tig.RAILS)
+    assert list(controls.rail.options.values()) == list(tig.RAILS)
     controls.rail.value = "49E1"
     assert inputs.to_design().rail == tig.RAILS["49E1"]
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from dashboard.figures import ForceFigure, InsertionGainFigure, nice_step, settled_range
+from dashboard.figures import ForceFigure, InsertionGainFigure, nice_step, rungs, settled_range
 
 # the least floats that there are would be lost when divided by a step
 ENDS = st.tuples(st.floats(-200, 200, allow_subnormal=False), st.floats(0.1, 200)).map(
@@ -45,6 +45,32 @@ def test_axes_shrink_when_the_data_fill_less_than_half():
 @pytest.mark.parametrize(("span", "step"), [(10, 1), (11, 2), (25, 5), (60, 10), (0.3, 0.05), (170, 20)])
 def test_steps_are_one_two_or_five(span, step):
     assert nice_step(span) == pytest.approx(step)
+
+
+@given(low=st.floats(-1e3, -1e-3), high=st.floats(1e-3, 1e3))
+def test_rungs_hold_the_data_with_room_for_both_signs(low, high):
+    bottom, top, step = rungs(low, high)
+    assert bottom <= low * (1 - 1e-12)
+    assert high * (1 - 1e-12) <= top
+    assert bottom / step == pytest.approx(round(bottom / step))
+    assert top / step == pytest.approx(round(top / step))
+
+
+def test_the_force_axis_moves_a_few_times_while_a_peak_grows_tenfold(picture):
+    force, ends = ForceFigure(), []
+    shown = picture("booted-block-low-mass")
+    for factor in np.geomspace(1, 10, 40):
+        force.show(
+            dataclasses.replace(
+                shown,
+                total_force=factor * shown.total_force,
+                loaded_support_force=factor * shown.loaded_support_force,
+            )
+        )
+        ends.append((force.model.y_range.start, force.model.y_range.end))
+        assert ends[-1][0] <= factor * shown.total_force.min()
+        assert factor * shown.total_force.max() <= ends[-1][1]
+    assert len(set(ends)) <= 7
 
 
 @pytest.fixture

@@ -281,3 +281,30 @@ def test_a_closed_session_solves_no_more(instant_store):
     session.runner.close()
     session.change(pad_stiffness=400)
     assert session.outcome.picture.design.pad_stiffness == 300e6
+
+
+def test_waiting_for_a_worker_does_not_count_as_long(make_store, fake_picture, monkeypatch):
+    """On a busy server a solve that has not begun is not given up for newer inputs, or none would finish."""
+    monkeypatch.setattr(runner_module, "LONG", 0.01)
+    monkeypatch.setattr(runner_module, "LOOK_EVERY", 0.002)
+    solved, go_on = [], threading.Event()
+
+    def solve(key, *_):
+        go_on.wait(10)
+        solved.append(key[0].pad_stiffness)
+        return fake_picture(key[0])
+
+    store = make_store(solve, workers=1)
+    store.request((tig.PRESETS["slab-track"], runner_module.FIDELITY))
+    session = Session(store)
+
+    async def drag():
+        for stiffness in (300, 400, 500):
+            session.inputs.pad_stiffness = stiffness
+            await asyncio.sleep(0.05)
+        go_on.set()
+        await until(lambda: not session.outcome.busy)
+
+    asyncio.run(drag())
+    assert solved[:3] == [1000e6, 300e6, 500e6]
+    assert session.outcome.picture.design.pad_stiffness == 500e6

@@ -19,7 +19,7 @@ def outcome():
 
 
 def test_the_status_follows_a_solve(outcome, picture):
-    status = Status(outcome, lambda *_: None)
+    status = Status(outcome, lambda *_: None, lambda *_: None)
     assert "Not solved yet" in status.text.object
     outcome.busy = True
     assert "Solving …" in status.text.object
@@ -55,7 +55,7 @@ def test_no_text_becomes_markup(outcome):
 
 def test_only_a_long_solve_shows_progress_and_can_be_stopped(outcome):
     stopped = []
-    status = Status(outcome, stopped.append)
+    status = Status(outcome, stopped.append, lambda *_: None)
     outcome.busy = True
     assert not status.stop.visible
     outcome.progress = 0.42
@@ -67,6 +67,31 @@ def test_only_a_long_solve_shows_progress_and_can_be_stopped(outcome):
     outcome.param.update(busy=False, progress=None)
     assert not status.stop.visible
     assert not status.progress.visible
+
+
+def test_what_was_not_solved_can_be_solved_after_all(outcome):
+    asked = []
+    status = Status(outcome, lambda *_: None, asked.append)
+    assert not status.solve.visible
+    outcome.problem = "Stopped."
+    assert status.solve.visible
+    status.solve.param.trigger("clicks")
+    assert len(asked) == 1
+    outcome.busy = True
+    assert not status.solve.visible
+
+
+def test_pictures_of_earlier_inputs_are_dimmed(outcome, picture):
+    outcome.picture = picture("slab-track")
+    view = Explore(outcome, Presentation())
+    looks = (*view.panes, view.frequencies.pane)
+    for changes, dimmed in (
+        ({"problem": "Stopped."}, True),
+        ({"problem": ""}, False),
+        ({"progress": 0.1}, True),
+    ):
+        outcome.param.update(**changes)
+        assert [float(pane.styles["opacity"]) < 1 for pane in looks] == [dimmed] * 3
 
 
 def test_frequencies_are_those_of_the_solution(outcome, picture):
