@@ -6,10 +6,8 @@ The one rule: nothing is checked that nobody looks at, and only the newest pictu
 import asyncio
 from functools import lru_cache
 
-import panel as pn
-
 import trackig_core as tig
-from dashboard.runner import publish, readable, workers
+from dashboard.runner import Latest, publish, readable, workers
 from dashboard.state import Checked
 
 CAPACITY = 64
@@ -47,21 +45,10 @@ class Checker:
 
     def __init__(self, outcome):
         self._outcome = outcome
-        self._pending = False
-        self._running = False
-        outcome.param.watch(self._on_change, ["picture", "checking"])
+        outcome.param.watch(Latest(self._check).ask, ["picture", "checking"])
 
-    async def _on_change(self, *_):
-        self._pending = True
-        if self._running:
-            return
-        self._running, document = True, pn.state.curdoc
-        try:
-            while self._pending:
-                self._pending = False
-                picture = self._outcome.picture
-                if self._outcome.checking and picture is not None:
-                    checked = await asyncio.get_running_loop().run_in_executor(workers(), check, picture)
-                    publish(self._outcome, document, checked=checked)
-        finally:
-            self._running = False
+    async def _check(self, document):
+        picture = self._outcome.picture
+        if self._outcome.checking and picture is not None:
+            checked = await asyncio.get_running_loop().run_in_executor(workers(), check, picture)
+            publish(self._outcome, document, checked=checked)

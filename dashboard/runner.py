@@ -92,6 +92,39 @@ class _SupersededError(Exception):
     """Newer inputs arrived while a long solve ran."""
 
 
+class Latest:
+    """Does a piece of work whenever asked, one at a time; asked meanwhile, it does it once more after.
+
+    Parameters
+    ----------
+    work : callable
+        Coroutine function of the session's document; it takes its task as it stands when it begins.
+
+    Attributes
+    ----------
+    pending : bool
+        Whether it was asked for since it last began.
+    """
+
+    def __init__(self, work):
+        self._work = work
+        self._running = False
+        self.pending = False
+
+    async def ask(self, *_):
+        """Ask for the work, and see it through unless it is under way already."""
+        self.pending = True
+        if self._running:
+            return
+        self._running, document = True, pn.state.curdoc
+        try:
+            while self.pending:
+                self.pending = False
+                await self._work(document)
+        finally:
+            self._running = False
+
+
 class Runner:
     """Watches inputs and keeps an outcome up to date.
 
@@ -109,8 +142,7 @@ class Runner:
         self.inputs = inputs
         self.outcome = outcome
         self._store = store
-        self._pending = False
-        self._running = False
+        self._latest = Latest(self._solve)
         self._stopping = False
         self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
 
@@ -126,7 +158,7 @@ class Runner:
     def stop(self, *_):
         """Give up the solve under way, and what waits behind it."""
         self._stopping = True
-        self._pending = False
+        self._latest.pending = False
 
     def solve_again(self, *_):
         """Solve the inputs as they stand, after a stop or a failure."""
@@ -138,17 +170,8 @@ class Runner:
         self.stop()
 
     async def _on_change(self, *_):
-        self._pending = True
         self._stopping = False
-        if self._running:
-            return
-        self._running, document = True, pn.state.curdoc
-        try:
-            while self._pending:
-                self._pending = False
-                await self._solve(document)
-        finally:
-            self._running = False
+        await self._latest.ask()
 
     async def _solve(self, document):
         self._publish(document, busy=True)
@@ -158,7 +181,7 @@ class Runner:
             changes = self._success(design, picture, from_cache)
             self._publish(document, **changes)
             modified = design != self.inputs.preset_design
-            if modified and changes["preset_picture"] is None and not self._pending:
+            if modified and changes["preset_picture"] is None and not self._latest.pending:
                 ghost, _ = await self._obtain(self.inputs.preset_design, document)
                 self._publish(document, preset_picture=ghost)
         except _SupersededError:
@@ -166,7 +189,7 @@ class Runner:
         except _StoppedError:
             self._publish(document, busy=False, progress=None, problem=STOPPED)
         except Exception as error:
-            self._publish(document, busy=self._pending, progress=None, problem=readable(error))
+            self._publish(document, busy=self._latest.pending, progress=None, problem=readable(error))
 
     def _success(self, design, picture, from_cache):
         modified = design != self.inputs.preset_design
@@ -175,7 +198,7 @@ class Runner:
             "picture": picture,
             "preset_picture": ghost,
             "from_cache": from_cache,
-            "busy": self._pending,
+            "busy": self._latest.pending,
             "progress": None,
             "problem": "",
         }
@@ -197,7 +220,7 @@ class Runner:
             if self._stopping:
                 raise _StoppedError
             if not future.done() and job.began is not None and time.monotonic() - job.began > LONG:
-                if self._pending:
+                if self._latest.pending:
                     raise _SupersededError
                 self._publish(document, progress=job.fraction)
 
