@@ -22,6 +22,9 @@ LOG_ROOM = 1.25
 NANOMETRES_PER_KILONEWTON = 1e12
 """One m/N in nm/kN."""
 
+SLOPE_APART = 0.5
+"""Factor by which a line of given slope is drawn below the errors it is compared with, to be seen [-]."""
+
 SLOPE_ONE, SLOPE_TWO = "slope 1", "slope 2"
 
 
@@ -218,6 +221,7 @@ class TimeStepFigure:
         _errors(
             self.model, self.errors, "step", "second", style.COUPLED_BLOCK, "square", "second-order memory"
         )
+        _legend_above(self.model)
         self._run = Span(
             dimension="height", line_color=style.LOADED_TRACK, line_dash="dotdash", name="run_time_step"
         )
@@ -230,12 +234,12 @@ class TimeStepFigure:
             "step": steps,
             "first": theory.first_order_errors,
             "second": theory.second_order_errors,
-            "one": theory.first_order_errors[-1] * steps / steps[-1],
-            "two": theory.second_order_errors[-1] * (steps / steps[-1]) ** 2,
+            "one": SLOPE_APART * theory.first_order_errors[-1] * steps / steps[-1],
+            "two": SLOPE_APART * theory.second_order_errors[-1] * (steps / steps[-1]) ** 2,
         }
         self._run.location = 1e6 * run_step
         _hold(self.model.x_range, steps)
-        _hold(self.model.y_range, theory.first_order_errors, theory.second_order_errors)
+        _hold(self.model.y_range, *(self.errors.data[key] for key in ("first", "one", "second", "two")))
 
 
 class ElementFigure:
@@ -256,6 +260,7 @@ class ElementFigure:
         self.model = _convergence_figure("element_figure", "Element length, mm")
         _slope(self.model, self.errors, "length", "two", SLOPE_TWO)
         _errors(self.model, self.errors, "length", "error", style.THIS_DESIGN, "circle", "exact twin")
+        _legend_above(self.model)
         self._run = Span(
             dimension="height", line_color=style.LOADED_TRACK, line_dash="dotdash", name="run_element"
         )
@@ -267,11 +272,11 @@ class ElementFigure:
         self.errors.data = {
             "length": length,
             "error": theory.element_errors,
-            "two": theory.element_errors[-1] * (length / length[-1]) ** 2,
+            "two": SLOPE_APART * theory.element_errors[-1] * (length / length[-1]) ** 2,
         }
         self._run.location = 1e3 * run_length
         _hold(self.model.x_range, length)
-        _hold(self.model.y_range, theory.element_errors)
+        _hold(self.model.y_range, theory.element_errors, self.errors.data["two"])
 
 
 class DampingFigure:
@@ -358,8 +363,13 @@ def _errors(plot, source, x, y, colour, marker, words):
     plot.add_tools(
         HoverTool(renderers=[dots], tooltips=[(label, f"@{x}{{0.00}}"), (words, f"@{y}{{0.00000}} dB")])
     )
-    plot.legend.location = "bottom_right"
-    plot.legend.background_fill_alpha = style.LEGEND_ALPHA
+
+
+def _legend_above(plot):
+    """Put the legend above the frame, where it covers no curve."""
+    legend = plot.legend[0]
+    legend.update(orientation="horizontal", ncols=2, border_line_color=None, background_fill_alpha=0.0)
+    plot.add_layout(legend, "above")
 
 
 def _slope(plot, source, x, y, words):

@@ -217,7 +217,7 @@ class Runner:
         future.add_done_callback(lambda done: done.cancelled() or done.exception())
         while not future.done():
             await asyncio.wait({future}, timeout=LOOK_EVERY)
-            if self._stopping:
+            if self._stopping and not future.done():
                 raise _StoppedError
             if not future.done() and job.began is not None and time.monotonic() - job.began > LONG:
                 if self._latest.pending:

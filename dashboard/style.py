@@ -45,7 +45,6 @@ THEME = {
 
 FILL_ALPHA = 0.22
 BAR_ALPHA = 0.8
-LEGEND_ALPHA = 0.7
 LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
 SECOND_DASH = [7, 3]
@@ -112,7 +111,13 @@ div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
 """
 SELECT_CSS = """
 select.bk-input { font-size: 15px; color: var(--panel-on-background-color); }
-select.bk-input { appearance: auto; background-image: none; padding-right: 6px; }
+select.bk-input {
+    background-image: linear-gradient(45deg, transparent 50%, currentColor 50%),
+        linear-gradient(135deg, currentColor 50%, transparent 50%);
+    background-position: right 14px center, right 8px center;
+    background-size: 6px 6px;
+    background-repeat: no-repeat;
+}
 select.bk-input option { color: var(--panel-on-background-color); background: var(--panel-background-color); }
 """
 """The browser's own select, legible from afar; its arrow follows the theme."""

@@ -56,6 +56,10 @@ class DesignError(ValueError):
         shown = repr(value)
         super().__init__(f"{field} = {shown if len(shown) <= 60 else shown[:57] + '...'}: give {allowed}")
 
+    def __reduce__(self):
+        """Let the error pass between processes."""
+        return type(self), (self.field, self.value, self.allowed)
+
 
 def check_number(field, value):
     """Return ``value`` as a float if it is a number within the range of ``field``.

@@ -32,7 +32,8 @@ def insertion_gain(spectrum, design, loaded_track, reference="line", summation="
         Its loaded-track frequency [Hz].
     reference : str
         ``"line"``: the straight line (9 dB per octave in bands) through the track's own spectrum at a
-        tenth of its loaded-track frequency. ``"rigid"``: the inertia force of the wheel alone.
+        tenth of its loaded-track frequency, or at the nearest end of the spectrum. ``"rigid"``: the
+        inertia force of the wheel alone.
     summation : str
         ``"energy"``: squared support forces are summed. ``"coherent"``: forces are summed.
 

@@ -38,6 +38,9 @@ PAPER_TIME_STEP = 1.0 / 131072
 PAPER_RECORD = 2.0
 """Length of the record [s]: 262144 of the paper's steps."""
 
+SHORTEST_RECORD = 0.01
+"""Shortest record that can be asked for [s]."""
+
 LONGEST_RECORD = 16.0
 """Length to which a record may be doubled while the force has not died down [s]."""
 
@@ -99,6 +102,17 @@ class Grid:
     def duration_estimate(self, record):
         """Return the time that a record of given length [s] would take on a modest core [s]."""
         return record / self.dt * self.half_bays * self.elements_per_bay / STEP_RATE
+
+    def memory_estimate(self, record):
+        """Return the memory that a record of given length [s] would take [bytes]."""
+        # all supports at the decimated rate, copied up to twice on the way to the spectrum
+        return 3 * 8 * self.half_bays * record * RECORD_RATE
+
+    def can_afford(self, record):
+        """Return whether a record of given length [s] keeps within the limits of time and memory."""
+        return (
+            self.duration_estimate(record) <= DURATION_LIMIT and self.memory_estimate(record) <= MEMORY_LIMIT
+        )
 
 
 def stable_time_step(design, dx):
@@ -165,12 +179,17 @@ def make_grid(
     RunTooLargeError
         If a run on the grid would need more than 2 GB or 60 s.
     ValueError
-        If ``bays`` or ``elements_per_bay`` cannot make a ring.
+        If ``bays`` or ``elements_per_bay`` cannot make a ring, or there is no such time step or record.
     """
     if bays < 3 or bays % 2 == 0:
         raise ValueError(f"bays = {bays}: give an odd number of 3 or more")
     if elements_per_bay < 2:
         raise ValueError(f"elements_per_bay = {elements_per_bay}: give 2 or more")
+    if not (time_step > 0 and record >= SHORTEST_RECORD):
+        raise ValueError(
+            f"time_step = {time_step!r}, record = {record!r}: give a time step above 0 s "
+            f"and a record of {SHORTEST_RECORD} s or more"
+        )
     dx = design.fastener_spacing / elements_per_bay
     stable = stable_time_step(design, dx)
     halvings = max(0, math.floor(math.log2(time_step / stable)) + 1)
@@ -178,8 +197,8 @@ def make_grid(
     notes = ()
     if halvings:
         notes = (
-            f"time step halved {_times(halvings)} to 1/{1 / dt:.0f} s for stability "
-            f"(spacing {design.fastener_spacing:g} m)",
+            f"time step halved {_times(halvings)} to 1/{1 / dt:.0f} s: this design is stable only below "
+            f"{stable * 1e6:.3g} µs",
         )
     grid = Grid(bays, elements_per_bay, dx, dt, round(record / dt), notes)
     _refuse_if_too_large(grid, record)
@@ -198,8 +217,7 @@ def _refuse_if_too_large(grid, record):
             f"{grid.elements} elements), more than the {DURATION_LIMIT:.0f} s allowed: "
             "the stiffness, mass or spacing of this design needs too short a time step"
         )
-    # record of all supports at the decimated rate (it may be copied twice on the way to its spectrum)
-    needed = 3 * 8 * grid.half_bays * record * RECORD_RATE
+    needed = grid.memory_estimate(record)
     if needed > MEMORY_LIMIT:
         raise RunTooLargeError(
             f"this run would need about {needed / 1e9:.3g} GB, more than the {MEMORY_LIMIT / 1e9:.0f} GB "

@@ -10,6 +10,7 @@ Time dependence exp(+i w t); SI units and Hz. Source of the model: the paper (se
 that it is given, the answer is exact.
 """
 
+import numbers
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +28,8 @@ NEPER = 20 / np.log(10)
 STRAIGHTNESS = 0.05
 """Bend of a refined spectrum between neighbouring frequencies that is left alone [dB]."""
 
-MOST_HALVINGS = 12
-"""Halvings of an interval after which a peak is taken as resolved [-]: one part in a hundred thousand."""
+MOST_HALVINGS = 24
+"""Halvings of an interval after which a peak is taken as resolved [-]: one part in a thousand million."""
 
 
 @dataclass(frozen=True)
@@ -45,12 +46,28 @@ class Lattice:
         Time step of the scheme whose z-transform is solved [s]; None for continuous time.
     memory_order : int
         Rule of the damping memory in discrete time: 1 (the paper's) or 2.
+
+    Raises
+    ------
+    ValueError
+        If there is no such lattice.
     """
 
     elements_per_bay: int = 3
     bays: int | None = None
     time_step: float | None = None
     memory_order: int = 1
+
+    def __post_init__(self):
+        """Check that there is such a lattice."""
+        if not isinstance(self.elements_per_bay, numbers.Integral) or self.elements_per_bay < 2:
+            raise ValueError(f"elements_per_bay = {self.elements_per_bay!r}: give a whole number, 2 or more")
+        if self.bays is not None and (not isinstance(self.bays, numbers.Integral) or self.bays < 2):
+            raise ValueError(f"bays = {self.bays!r}: give None or a whole number, 2 or more")
+        if self.time_step is not None and not self.time_step > 0:
+            raise ValueError(f"time_step = {self.time_step!r}: give None or a time greater than 0 s")
+        if self.memory_order not in (1, 2):
+            raise ValueError(f"memory_order = {self.memory_order!r}: give 1 or 2")
 
 
 INFINITE = Lattice()
@@ -98,6 +115,8 @@ class Waves:
             Receptance [m/N].
         """
         away = np.abs(np.asarray(support))[..., None, None]
+        if self.bays is not None:
+            away = away % self.bays
         shape = self.multipliers**away
         if self.bays is not None:
             # waves that went round the ring the other way, and any number of times
@@ -179,8 +198,15 @@ def waves(design, frequency, lattice=INFINITE):
     -------
     Waves
         The two waves per frequency.
+
+    Raises
+    ------
+    ValueError
+        If a frequency is not greater than zero.
     """
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
+    if not (frequency > 0).all():
+        raise ValueError("frequencies must be greater than 0 Hz")
     if lattice.time_step is None:
         squared = (2 * np.pi * frequency) ** 2
     else:
@@ -357,7 +383,9 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
         middle = np.array([between.frequency, between.energy, between.coherent_energy])
         rows = np.concatenate([rows, middle], axis=1)
         ratio = middle[1:] ** 2 / (left[1:] * right[1:])
-        bent = np.abs(np.log(ratio)).max(axis=0) > 2 * STRAIGHTNESS / 10 * np.log(10)
+        with np.errstate(invalid="ignore", divide="ignore"):  # energies that rounding drowns; told below
+            bend = np.abs(np.log(ratio)).max(axis=0)
+        bent = bend > 2 * STRAIGHTNESS / 10 * np.log(10)
         if not bent.any():
             break
         left, middle, right = left[:, bent], middle[:, bent], right[:, bent]
@@ -383,10 +411,14 @@ def refuse_if_unbounded(design):
     """
     pad, boot = laws(design)
     if not (boot or pad).strengths:
-        field = "boot_loss_factor" if design.two_stage else "pad_loss_factor"
-        raise DesignError(
-            field, getattr(design, field), "more than 0: without loss the exact spectrum has no bound"
-        )
+        field, value = _grounded_loss(design)
+        raise DesignError(field, value, "more than 0: without loss the exact spectrum has no bound")
+
+
+def _grounded_loss(design):
+    """Return name and value of the loss factor of the spring that stands on the ground."""
+    field = "boot_loss_factor" if design.two_stage else "pad_loss_factor"
+    return field, getattr(design, field)
 
 
 def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
@@ -407,11 +439,20 @@ def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
     -------
     ForceSpectrum
         Energy at frequencies that resolve every peak and include every band edge.
+
+    Raises
+    ------
+    DesignError
+        If the spectrum cannot be told from rounding, as with next to no loss.
     """
     anchor = LINE_FRACTION * loaded_track
     between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
     below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
-    return resolved_spectrum(design, np.concatenate([below, between]), step, lattice)
+    spectrum = resolved_spectrum(design, np.concatenate([below, between]), step, lattice)
+    if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
+        field, value = _grounded_loss(design)
+        raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")
+    return spectrum
 
 
 def track_decay_rate(design, frequency, lattice=INFINITE):

@@ -35,7 +35,12 @@ class MeasurementError(ValueError):
 
     def __init__(self, message, row=None):
         self.row = row
+        self._message = message
         super().__init__(message if row is None else f"row {row}: {message}")
+
+    def __reduce__(self):
+        """Let the error pass between processes."""
+        return type(self), (self._message, self.row)
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ so its dynamic stiffness is K(w) = k_inf - sum_j k_j / (1 + i w tau_j), three te
 factor Im K / Re K. Such a material is causal, so it stiffens with frequency as much as its damping
 demands. N/m, s, Hz. Source: the paper (see :mod:`trackig_core.design`), damping section.
 
-The one rule: Re K at 50 Hz is exactly the dynamic stiffness that the designer stated.
+The one rule: Re K at 50 Hz is exactly the dynamic stiffness that the designer stated; a table of measured
+stiffness is met as well as three terms can.
 """
 
 import math
@@ -56,7 +57,8 @@ class Relaxation:
     times : tuple of float [s]
         Relaxation time tau_j of each term.
     worst_error : float [-]
-        Largest relative error of the loss factor against its target, 5-500 Hz.
+        Largest relative error against what was stated, 5-500 Hz: of the loss factor, and of a measured
+        stiffness.
     """
 
     instantaneous: float

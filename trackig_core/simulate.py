@@ -16,7 +16,7 @@ from scipy.signal import firwin, kaiserord
 
 from trackig_core import kernel
 from trackig_core.design import DEFAULT_STEP
-from trackig_core.grid import DURATION_LIMIT, LONGEST_RECORD, RECORD_RATE
+from trackig_core.grid import LONGEST_RECORD, RECORD_RATE
 from trackig_core.relaxation import laws
 from trackig_core.results import TimeHistory
 
@@ -106,7 +106,7 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, 
     samples = run.collect(grid.steps, progress, cancelled)
     while not (decayed := _has_decayed(samples)):
         record *= 2
-        if record > LONGEST_RECORD or grid.duration_estimate(record) > DURATION_LIMIT:
+        if record > LONGEST_RECORD or not grid.can_afford(record):
             break
         samples = np.concatenate([samples, run.collect(run.steps_done, progress, cancelled)])
     if progress is not None:

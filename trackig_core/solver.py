@@ -7,12 +7,14 @@ same reference, bands and gain follow the spectrum.
 from dataclasses import replace
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from trackig_core import harmonic
+from trackig_core.bands import BAND_EDGES, decibels
 from trackig_core.catalogue import PRESETS
 from trackig_core.convergence import time_step_errors
 from trackig_core.design import DesignError, TrackDesign
-from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
+from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain, integrate_bands
 from trackig_core.grid import make_grid
 from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
 from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
@@ -26,6 +28,9 @@ POOR_FIT = 0.1
 
 LARGE_STEP_ERROR = 0.5
 """Error of insertion gain in any band, made by the time step, above which the solution says so [dB]."""
+
+LARGE_DOUBT = 0.1
+"""Difference between two ways to integrate a band, above which the solution says so [dB]."""
 
 FIDELITIES = ("paper", "exact")
 """Fidelities that :func:`solve` offers."""
@@ -55,9 +60,9 @@ def solve(
     summation : str
         ``"energy"`` (squared support forces, the paper's) or ``"coherent"`` (forces).
     progress : callable, optional
-        Called now and then with the fraction done, 0 to 1, from the calling thread.
+        Called now and then with the fraction done, 0 to 1, from the calling thread; not when exact.
     cancelled : callable, optional
-        Asked now and then; the run ends when it answers true.
+        Asked now and then, but not when exact; the run ends when it answers true.
 
     Returns
     -------
@@ -70,6 +75,8 @@ def solve(
         If the run would need more than 2 GB or 60 s.
     SolveCancelled
         If ``cancelled`` answered true.
+    FloatingPointError
+        If the run left the finite numbers, which no stable grid should let it.
     DesignError
         If ``design`` is no design, or its exact solution has no bound for want of any loss.
     ValueError
@@ -86,6 +93,7 @@ def solve(
     if fidelity == "exact":
         refuse_if_unbounded(design)
         spectrum = banded_spectrum(design, frequencies.loaded_track)
+        notes = _sharpness_notes(spectrum)
     else:
         grid = make_grid(design)
         history = simulate(design, grid, progress=progress, cancelled=cancelled)
@@ -136,17 +144,29 @@ def _record_notes(grid, history):
     record = history.steps * grid.dt
     notes = ()
     if history.steps > grid.steps:
-        notes += (f"record extended to {record:g} s, until the force had died down",)
+        until = ", until the force had died down" if history.decayed else ""
+        notes += (f"record extended to {record:g} s{until}",)
     if not history.decayed:
-        notes += (f"the force had not died down by 80 dB at {record:g} s: sharp resonances are less exact",)
+        notes += (f"the force had not died down by 80 dB at {record:g} s: do not trust sharp resonances",)
     return notes
+
+
+def _sharpness_notes(spectrum):
+    """Return what is to be said of resonances that are too sharp to be integrated."""
+    straight = cumulative_trapezoid(spectrum.energy, spectrum.frequency, initial=0)
+    straight = np.diff(np.interp(BAND_EDGES, spectrum.frequency, straight))
+    smooth = integrate_bands(spectrum.frequency, spectrum.energy)
+    doubt = np.abs(decibels(np.clip(smooth / straight, 1e-9, None))).max()
+    if doubt <= LARGE_DOUBT:
+        return ()
+    return (f"some resonances are too sharp to be integrated: bands are uncertain by {doubt:.1g} dB or more",)
 
 
 def _step_notes(design, grid):
     """Return what is to be said of the error that the time step makes, if it is large."""
     try:
         error = time_step_errors(design, [grid.dt], memory_order=1)[0]
-    except DesignError:  # without loss there is neither a damping memory nor an exact answer
+    except DesignError:  # for want of loss there is no exact answer to compare with
         return ()
     if error <= LARGE_STEP_ERROR:
         return ()

@@ -92,7 +92,7 @@ WIDE, NARROW = {"xs": 12, "lg": 7}, {"xs": 12, "lg": 5}
 GAIN_TITLE = "Insertion gain"
 GAIN_WORDS = (
     "Above 0 dB the track amplifies, below it isolates. Summed energy counts waves running along the rail, "
-    "coherent force lets them cancel: up to 12 dB apart, 60 to 200 Hz."
+    "coherent force lets them cancel; it matters above resonance."
 )
 
 CHOICE_WIDTH = 240

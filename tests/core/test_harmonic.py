@@ -189,3 +189,31 @@ def test_reciprocity(design, support):
     moved = np.linalg.solve(matrix, load)[0]
     track = waves(design, [frequency], Lattice(per_bay, bays))
     assert track.transfer[0] * track.receptance(support)[0] == pytest.approx(moved, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "choice",
+    [
+        {"elements_per_bay": 1},
+        {"elements_per_bay": 2.5},
+        {"bays": 0},
+        {"time_step": 0.0},
+        {"time_step": float("nan")},
+        {"memory_order": 3},
+    ],
+)
+def test_lattices_that_do_not_exist(choice):
+    with pytest.raises(ValueError, match=next(iter(choice))):
+        Lattice(**choice)
+
+
+def test_only_positive_frequencies_have_a_receptance():
+    with pytest.raises(ValueError, match="greater than 0 Hz"):
+        receptance(BLOCK, [0.0, 10.0])
+
+
+def test_supports_of_a_ring_are_counted_round():
+    lattice = Lattice(bays=21)
+    found = receptance(BLOCK, [80.0], np.array([0, 1, 20, 21, 22, -1]), lattice)[:, 0]
+    assert found[[1, 2, 4, 5]] == pytest.approx(np.full(4, found[1]), rel=1e-9)
+    assert found[3] == pytest.approx(found[0])

@@ -1,5 +1,6 @@
 """The door: golden results, the twin, the rigid track, any valid design, and the memory it takes."""
 
+import pickle
 import subprocess
 import sys
 
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 import trackig_core as tig
 from tests.core.test_grid import designs
+from trackig_core import kernel
 from trackig_core.grid import RING_BAYS, make_grid
 from trackig_core.harmonic import Lattice, exact_spectrum
 from trackig_core.simulate import simulate
@@ -211,3 +213,78 @@ def test_a_costly_time_step_is_told():
     error = np.abs(stepped.insertion_gain - exact.insertion_gain).max()
     assert error > 0.5
     assert any(f"cost up to {error:.1f} dB" in note for note in stepped.notes)
+
+
+LOSSLESS_PAD = tig.TrackDesign(
+    pad_stiffness=67.1e6,
+    pad_loss_factor=0.0,
+    block_mass=488.9,
+    boot_stiffness=15.48e6,
+    boot_loss_factor=0.02,
+    fastener_spacing=0.996,
+    wheel_mass=880.0,
+)
+
+
+def test_resonances_too_sharp_to_be_integrated_are_told():
+    assert any("too sharp" in note for note in tig.solve(LOSSLESS_PAD, "exact").notes)
+    for design in tig.PRESETS.values():
+        assert tig.solve(design, "exact").notes == ()
+
+
+def test_next_to_no_loss_is_resolved_as_well():
+    """Bands against Gauss integration of every interval between the solution's own frequencies."""
+    design = BLOCK.replace(pad_loss_factor=1e-5, boot_loss_factor=1e-4)
+    solution = tig.solve(design, "exact")
+    assert solution.notes == ()
+    peaks = solution.spectrum.frequency
+    for band in range(21):
+        low, high = tig.BAND_EDGES[band : band + 2]
+        inside = np.unique(np.clip(peaks, low, high))
+        points, weights = np.polynomial.legendre.leggauss(16)
+        middle, half = (inside[1:] + inside[:-1]) / 2, np.diff(inside) / 2
+        grid = middle[:, None] + half[:, None] * points
+        order = np.argsort(grid, axis=None)
+        energy = np.empty(grid.size)
+        energy[order] = exact_spectrum(design, grid.ravel()[order], 1e-4).energy
+        total = np.sum(half[:, None] * weights * energy.reshape(grid.shape))
+        assert abs(10 * np.log10(solution.gain.band_energy[band] / total)) < 0.02
+
+
+def test_what_rounding_drowns_is_refused():
+    design = tig.TrackDesign(
+        pad_stiffness=1.037e5,
+        pad_loss_factor=0.0,
+        block_mass=8043.0,
+        boot_stiffness=4.42e5,
+        boot_loss_factor=0.02,
+        fastener_spacing=0.1548,
+        wheel_mass=341.0,
+        contact_stiffness=8.337e8,
+        rail=tig.Rail("light", 10.53, 1.852e6),
+    )
+    with pytest.raises(tig.DesignError, match="rounding drowns"):
+        tig.solve(design, "exact")
+
+
+def test_compiling_leaves_nothing_to_compile():
+    tig.compile_kernels()
+    kernels = [each for each in vars(kernel).values() if hasattr(each, "signatures")]
+    before = {each: tuple(each.signatures) for each in kernels}
+    for fidelity in ("paper", "exact"):
+        tig.solve(BLOCK, fidelity)
+    tig.verify(tig.solve(SLAB))
+    assert before[kernel.advance]
+    assert before[kernel.bay_waves]
+    assert {each: tuple(each.signatures) for each in kernels} == before
+
+
+def test_errors_pass_between_processes():
+    with pytest.raises(tig.DesignError) as caught:
+        BLOCK.replace(pad_stiffness=-1.0)
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert (str(copy), copy.field, copy.value) == (str(caught.value), "pad_stiffness", -1.0)
+    with pytest.raises(tig.MeasurementError) as caught:
+        tig.LossFactorCurve([(5, 0.1), (4, 0.1)])
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert (str(copy), copy.row) == (str(caught.value), 2)

@@ -44,3 +44,9 @@ def test_what_cannot_be_verified_says_why():
         tig.verify(tig.solve(BLOCK, "exact"))
     with pytest.raises(tig.DesignError, match="no bound"):
         tig.verify(tig.solve(tig.PRESETS["slab-track"].replace(pad_loss_factor=0.0)))
+
+
+@pytest.mark.parametrize("value", [BLOCK, None])
+def test_only_solutions_are_verified(value):
+    with pytest.raises(TypeError, match="give what solve"):
+        tig.verify(value)
