@@ -32,6 +32,10 @@ MOST_HALVINGS = 24
 """Halvings of an interval after which a peak is taken as resolved [-]: one part in a thousand million."""
 
 
+MOST_FREQUENCIES = 20_000
+"""Frequencies after which a spectrum is refined no further [-]: more are asked for only by rounding noise."""
+
+
 @dataclass(frozen=True)
 class Lattice:
     """Which discrete track the twin solves.
@@ -386,7 +390,7 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
         with np.errstate(invalid="ignore", divide="ignore"):  # energies that rounding drowns; told below
             bend = np.abs(np.log(ratio)).max(axis=0)
         bent = bend > 2 * STRAIGHTNESS / 10 * np.log(10)
-        if not bent.any():
+        if not bent.any() or rows.shape[1] > MOST_FREQUENCIES:
             break
         left, middle, right = left[:, bent], middle[:, bent], right[:, bent]
         left, right = np.concatenate([left, middle], axis=1), np.concatenate([middle, right], axis=1)

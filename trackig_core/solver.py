@@ -7,14 +7,13 @@ same reference, bands and gain follow the spectrum.
 from dataclasses import replace
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from trackig_core import harmonic
 from trackig_core.bands import BAND_EDGES, decibels
 from trackig_core.catalogue import PRESETS
 from trackig_core.convergence import time_step_errors
 from trackig_core.design import DesignError, TrackDesign
-from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain, integrate_bands
+from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.grid import make_grid
 from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
 from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
@@ -93,16 +92,18 @@ def solve(
     if fidelity == "exact":
         refuse_if_unbounded(design)
         spectrum = banded_spectrum(design, frequencies.loaded_track)
-        notes = _sharpness_notes(spectrum)
     else:
         grid = make_grid(design)
         history = simulate(design, grid, progress=progress, cancelled=cancelled)
         spectrum = force_spectrum(history)
         notes = grid.notes + _record_notes(grid, history) + _step_notes(design, grid)
+    gain = insertion_gain(spectrum, design, frequencies.loaded_track, reference, summation)
+    if fidelity == "exact":
+        notes = _sharpness_notes(spectrum, gain)
     return Solution(
         design=design,
         fidelity=fidelity,
-        gain=insertion_gain(spectrum, design, frequencies.loaded_track, reference, summation),
+        gain=gain,
         spectrum=spectrum,
         natural_frequencies=_observed(design, frequencies, spectrum, history),
         pad_law=pad_law,
@@ -151,12 +152,13 @@ def _record_notes(grid, history):
     return notes
 
 
-def _sharpness_notes(spectrum):
+def _sharpness_notes(spectrum, gain):
     """Return what is to be said of resonances that are too sharp to be integrated."""
-    straight = cumulative_trapezoid(spectrum.energy, spectrum.frequency, initial=0)
-    straight = np.diff(np.interp(BAND_EDGES, spectrum.frequency, straight))
-    smooth = integrate_bands(spectrum.frequency, spectrum.energy)
-    doubt = np.abs(decibels(np.clip(smooth / straight, 1e-9, None))).max()
+    density = spectrum.energy if gain.summation == "energy" else spectrum.coherent_energy
+    panels = np.diff(spectrum.frequency) * (density[1:] + density[:-1]) / 2
+    # the band edges are among the frequencies
+    straight = np.add.reduceat(panels, np.searchsorted(spectrum.frequency, BAND_EDGES[:-1] * (1 - 1e-9)))
+    doubt = np.abs(decibels(np.clip(gain.band_energy / straight, 1e-9, None))).max()
     if doubt <= LARGE_DOUBT:
         return ()
     return (f"some resonances are too sharp to be integrated: bands are uncertain by {doubt:.1g} dB or more",)
