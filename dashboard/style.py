@@ -111,7 +111,7 @@ div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
 """
 SELECT_CSS = """
 select.bk-input { font-size: 15px; color: var(--panel-on-background-color); }
-select.bk-input {
+select:not([multiple]).bk-input.bk-input {
     background-image: linear-gradient(45deg, transparent 50%, currentColor 50%),
         linear-gradient(135deg, currentColor 50%, transparent 50%);
     background-position: right 14px center, right 8px center;
