@@ -8,7 +8,15 @@ from bokeh.models import ColumnDataSource, HoverTool, Range1d, Span
 
 import trackig_core as tig
 from dashboard import style
-from dashboard.figures import AxisEnds, blank_figure, nice_step, show_bands, zero_line
+from dashboard.figures import (
+    LEVEL_ROOM,
+    LEVEL_STEP,
+    AxisEnds,
+    blank_figure,
+    nice_step,
+    show_bands,
+    zero_line,
+)
 
 LEAST_DIFFERENCE = 0.02
 """What the difference axis shows at least, up and down [dB]."""
@@ -78,7 +86,8 @@ class ComparisonFigure:
 
     def show(self, run, exact):
         """Draw the levels of the run and of the exact twin (21,) [dB]."""
-        self._levels.show(min(run.min(), exact.min()) - 2, max(run.max(), exact.max()) + 2, 5.0)
+        seen = np.concatenate([run, exact])
+        self._levels.show(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM, LEVEL_STEP)
         self.bands.data = _compared(run, exact)
 
 

@@ -49,7 +49,7 @@ def insertion_gain(spectrum, design, loaded_track, reference="line", summation="
     """
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
-    energy = spectrum.energy if summation == "energy" else spectrum.coherent_energy
+    energy = summed_energy(spectrum, summation)
     frequency = spectrum.frequency
     if reference == "line":
         # E grows as f^2 here: E / f^2 is nearly flat, so it may be interpolated between bins
@@ -67,6 +67,11 @@ def insertion_gain(spectrum, design, loaded_track, reference="line", summation="
         reference=reference,
         summation=summation,
     )
+
+
+def summed_energy(spectrum, summation):
+    """Return the energy of a spectrum by the chosen sum over the supports (frequencies,) [N2 s2]."""
+    return spectrum.energy if summation == "energy" else spectrum.coherent_energy
 
 
 def check_choice(name, value, choices):

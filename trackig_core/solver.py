@@ -13,7 +13,7 @@ from trackig_core.bands import BAND_EDGES, decibels
 from trackig_core.catalogue import PRESETS
 from trackig_core.convergence import time_step_errors
 from trackig_core.design import DesignError, TrackDesign
-from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
+from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain, summed_energy
 from trackig_core.grid import make_grid
 from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
 from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
@@ -154,7 +154,7 @@ def _record_notes(grid, history):
 
 def _sharpness_notes(spectrum, gain):
     """Return what is to be said of resonances that are too sharp to be integrated."""
-    density = spectrum.energy if gain.summation == "energy" else spectrum.coherent_energy
+    density = summed_energy(spectrum, gain.summation)
     panels = np.diff(spectrum.frequency) * (density[1:] + density[:-1]) / 2
     # the band edges are among the frequencies
     straight = np.add.reduceat(panels, np.searchsorted(spectrum.frequency, BAND_EDGES[:-1] * (1 - 1e-9)))

@@ -120,9 +120,7 @@ def bokeh_pane(model):
 
 def gain_axis(presentation):
     """Return what the insertion gain's axis is called, the choice named in it."""
-    summed, reference = SUMMATION_AXIS[presentation.summation], REFERENCE_AXIS[presentation.reference]
-    return f"Insertion gain, dB ({summed} / {reference})"
+    return f"Insertion gain, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
 
 
 SUMMATION_AXIS = {"energy": "summed energy", "coherent": "coherent force"}
-REFERENCE_AXIS = {"line": "line", "rigid": "rigid"}
