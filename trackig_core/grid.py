@@ -13,9 +13,8 @@ support, so only half of the ring is stepped:
     boot      ..........|..S............|..S............|.....|..S.........|..S.........:.......
                         ^ mirror: element -i moves as i                mid-span mirror ^
 
-An odd number of bays puts the far mirror in the middle of the last bay. The half ring is stored
-element by element as an array (elements_per_bay, bays stored), so that every support's rail element
-lies in row 0 and neighbours along the rail are contiguous in memory.
+An odd number of bays puts the far mirror in the middle of the last bay. :mod:`trackig_core.layout` shows
+how this lies in memory.
 
 SI units. Source: the paper (see :mod:`trackig_core.design`), sections on the grid and on stability.
 The one rule: a grid that exists is stable.
@@ -31,6 +30,9 @@ ELEMENTS_PER_BAY = 3
 
 RING_BAYS = 667
 """Supports around the ring [-]: the paper's 2000 elements, made divisible by three."""
+
+FEWEST_BAYS = 17
+"""Fewest supports around a ring [-]: fewer do not fill the kernel's lanes."""
 
 PAPER_TIME_STEP = 1.0 / 131072
 """The paper's time step [s]."""
@@ -165,7 +167,7 @@ def make_grid(
     elements_per_bay : int
         Rail elements between supports, two or more.
     bays : int
-        Supports around the ring, odd and three or more.
+        Supports around the ring, odd and 17 or more.
     record : float
         Length of the record [s].
 
@@ -181,8 +183,8 @@ def make_grid(
     ValueError
         If ``bays`` or ``elements_per_bay`` cannot make a ring, or there is no such time step or record.
     """
-    if bays < 3 or bays % 2 == 0:
-        raise ValueError(f"bays = {bays}: give an odd number of 3 or more")
+    if bays < FEWEST_BAYS or bays % 2 == 0:
+        raise ValueError(f"bays = {bays}: give an odd number of {FEWEST_BAYS} or more")
     if elements_per_bay < 2:
         raise ValueError(f"elements_per_bay = {elements_per_bay}: give 2 or more")
     if not (time_step > 0 and record >= SHORTEST_RECORD):

@@ -31,9 +31,9 @@ class TimeHistory:
         Force that each support of the half ring passes into the ground.
     multiplicity : numpy.ndarray (supports,) [-]
         How many supports of the whole ring each column stands for: 1 under the wheel, else 2.
-    rail_displacement, block_displacement : numpy.ndarray (samples,) [m]
-        Displacement of rail and block at the loaded support; ``block_displacement`` is None when
-        single-stage.
+    wheel_displacement, rail_displacement, block_displacement : numpy.ndarray (samples,) [m]
+        Displacement of the wheel, and of rail and block at the loaded support; ``block_displacement`` is
+        None when single-stage.
     low_pass : numpy.ndarray (taps,) [-]
         Coefficients of the low-pass filter, applied at ``time_step``.
     time_step : float [s]
@@ -49,6 +49,7 @@ class TimeHistory:
     time: np.ndarray = field(repr=False)
     support_force: np.ndarray = field(repr=False)
     multiplicity: np.ndarray = field(repr=False)
+    wheel_displacement: np.ndarray = field(repr=False)
     rail_displacement: np.ndarray = field(repr=False)
     block_displacement: np.ndarray | None = field(repr=False)
     low_pass: np.ndarray = field(repr=False)

@@ -17,6 +17,8 @@ from scipy.signal import firwin, kaiserord
 from trackig_core import kernel
 from trackig_core.design import DEFAULT_STEP
 from trackig_core.grid import LONGEST_RECORD, RECORD_RATE
+from trackig_core.kernel import LANES
+from trackig_core.layout import GHOSTS, QUANTITIES, Layout, aligned_zeros
 from trackig_core.relaxation import laws
 from trackig_core.results import TimeHistory
 
@@ -32,15 +34,54 @@ DECAY = 1e-4
 DECAY_WINDOW = 0.1
 """Last part of the record in which the force must stay below :data:`DECAY` [s]: half a period at 5 Hz."""
 
-BLOCK_SAMPLES = 64
-"""Decimated samples per call of the kernel: some tens of milliseconds between looks at ``cancelled``."""
+COMB_RATE = 32768.0
+"""Rate below which the record is not halved by a comb [Hz]: half of it lies well above :data:`PASS_BAND`."""
+
+COMB_ORDER = 4
+"""Zeros that a comb puts on each frequency that halving the rate would fold onto 0 Hz [-]; around them,
+:data:`PASS_BAND` wide, it attenuates by 123 dB or more at the paper's rate."""
+
+BLOCK_SAMPLES = 16
+"""Decimated samples per call of the kernel: their rows stay in the second-level cache until they are
+filtered, and ``cancelled`` is asked every few milliseconds."""
+
+
+NO_COMB = np.array([1.0, 0.0, 0.0, 0.0])
+"""The comb that lets every row pass as it is."""
+
+DOUBLED = 2.0
+"""By what factor the paper's record is made longer while the force has not died down [-]."""
 
 
 class SolveCancelled(Exception):  # noqa: N818  (it is no error: the caller asked for it)
     """The caller cancelled the run."""
 
 
-@lru_cache(maxsize=16)
+class LowPass(NamedTuple):
+    """The filter that precedes decimation, in two stages: a cheap comb at full rate, then a sharp filter.
+
+    Attributes
+    ----------
+    comb : numpy.ndarray (comb_taps,) [-]
+        Coefficients of the first stage, newest row first, with zeros to a multiple of four.
+    comb_factor : int
+        Time steps per row that the first stage keeps.
+    taps : numpy.ndarray (taps,) [-]
+        Symmetric coefficients of the second stage, a multiple of four of them.
+    factor : int
+        Rows of the first stage per sample that the second keeps.
+    whole : numpy.ndarray [-]
+        Symmetric coefficients of both in one, at full rate; unit gain at 0 Hz.
+    """
+
+    comb: np.ndarray
+    comb_factor: int
+    taps: np.ndarray
+    factor: int
+    whole: np.ndarray
+
+
+@lru_cache(maxsize=64)
 def low_pass(time_step):
     """Return the filter that precedes decimation to :data:`~trackig_core.grid.RECORD_RATE`.
 
@@ -51,27 +92,33 @@ def low_pass(time_step):
 
     Returns
     -------
-    numpy.ndarray (taps,)
-        Symmetric coefficients (Kaiser window), a multiple of four of them, unit gain at 0 Hz [-].
+    LowPass
+        Both stages; the second is a Kaiser window's.
     """
-    rate = 1 / time_step
-    stop = RECORD_RATE - PASS_BAND
+    steps = max(1, round(1 / (time_step * RECORD_RATE)))
+    comb, halved = np.ones(1), 1
+    while steps % (2 * halved) == 0 and 1 / (time_step * 2 * halved) >= COMB_RATE:
+        pair = np.zeros(halved + 1)
+        pair[[0, -1]] = 0.5
+        for _ in range(COMB_ORDER):
+            comb = np.convolve(comb, pair)
+        halved *= 2
+    rate, factor = 1 / (time_step * halved), steps // halved
+    stop = rate / factor - PASS_BAND
     count, beta = kaiserord(STOP_BAND_ATTENUATION, (stop - PASS_BAND) / (rate / 2))
     count += -count % 4
     taps = firwin(count, (PASS_BAND + stop) / 2, window=("kaiser", beta), fs=rate)
-    taps.flags.writeable = False
-    return taps
+    spread = np.zeros((count - 1) * halved + 1)
+    spread[::halved] = taps
+    return LowPass(np.pad(comb, (0, -comb.size % 4)), halved, taps, factor, np.convolve(comb, spread))
 
 
-def decimation(time_step):
-    """Return how many time steps [s] make one sample of the decimated record."""
-    return max(1, round(1 / (time_step * RECORD_RATE)))
-
-
-def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, cancelled=None):
+def simulate(
+    design, grid, *, memory_order=1, step=DEFAULT_STEP, growth=DOUBLED, progress=None, cancelled=None
+):
     """Step a design through time until the force into the ground has died down.
 
-    The record is doubled, up to 16 s, until the low-passed force has decayed by 80 dB.
+    The record is made longer, up to 16 s, until the low-passed force has decayed by 80 dB.
 
     Parameters
     ----------
@@ -83,6 +130,8 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, 
         1 for the paper's recursion of the damping memory, 2 for the second-order one.
     step : float
         Step that squeezes the contact spring [m].
+    growth : float
+        By what factor a record that is too short is made longer [-].
     progress : callable, optional
         Called now and then with the fraction done, 0 to 1. The first record counts for half of it, the
         first extension for half of the rest, and so on, since nobody knows how many there will be.
@@ -102,13 +151,13 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, 
         If the run produced a value that is not finite.
     """
     run = _Run(design, grid, memory_order, step)
-    record = grid.steps * grid.dt
     samples = run.collect(grid.steps, progress, cancelled)
-    while not (decayed := _has_decayed(samples)):
-        record *= 2
+    while not (decayed := _has_decayed(samples[:, : grid.half_bays])):
+        record = growth * run.steps_done * grid.dt
         if record > LONGEST_RECORD or not grid.can_afford(record):
             break
-        samples = np.concatenate([samples, run.collect(run.steps_done, progress, cancelled)])
+        more = round((growth - 1) * run.steps_done)
+        samples = np.concatenate([samples, run.collect(more, progress, cancelled)])
     if progress is not None:
         progress(1.0)
 
@@ -119,9 +168,10 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, 
         time=run.sample_times(len(samples)),
         support_force=samples[:, :supports],
         multiplicity=multiplicity,
-        rail_displacement=samples[:, supports],
-        block_displacement=samples[:, supports + 1] if design.two_stage else None,
-        low_pass=run.taps,
+        wheel_displacement=samples[:, supports],
+        rail_displacement=samples[:, supports + 1],
+        block_displacement=samples[:, supports + 2] if design.two_stage else None,
+        low_pass=run.filter.whole,
         time_step=grid.dt,
         step=step,
         steps=run.steps_done,
@@ -129,9 +179,8 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, progress=None, 
     )
 
 
-def _has_decayed(samples):
-    """Return whether the forces at the end of the record are 80 dB below their peak."""
-    forces = samples[:, :-2]
+def _has_decayed(forces):
+    """Return whether the forces (samples, supports) at their end are 80 dB below their peak."""
     window = max(1, round(DECAY_WINDOW * RECORD_RATE))
     return bool(np.abs(forces[-window:]).max() <= DECAY * np.abs(forces).max())
 
@@ -141,18 +190,17 @@ class State(NamedTuple):
 
     rail: np.ndarray
     rail_velocity: np.ndarray
-    block: np.ndarray
-    block_velocity: np.ndarray
+    supports: np.ndarray
     wheel: np.ndarray
-    pad_memory: np.ndarray
-    boot_memory: np.ndarray
-    compression: np.ndarray
-    pad_force: np.ndarray
+    window: np.ndarray
 
 
 class Constants(NamedTuple):
     """What the kernel is given and leaves alone, in the order in which it takes it."""
 
+    mirrors: np.ndarray
+    rail_probes: np.ndarray
+    block_probes: np.ndarray
     time_step: float
     bending: float
     pad_stiffness: float
@@ -166,9 +214,18 @@ class Constants(NamedTuple):
     wheel_mass: float
     contact_stiffness: float
     two_stage: bool
+    comb: np.ndarray
+    comb_factor: int
 
 
-def at_rest(design, grid, *, memory_order=1, step=DEFAULT_STEP):
+TERMS = 3
+"""Memory terms of a spring in the kernel [-]; those that a spring without loss has not are zero."""
+
+PROBES = 3
+"""Displacements that are recorded beside the forces: wheel, rail and block at the loaded support."""
+
+
+def at_rest(design, grid, *, memory_order=1, step=DEFAULT_STEP, comb=NO_COMB, comb_factor=1):
     """Return a track at rest under a wheel that squeezes its contact spring.
 
     Parameters
@@ -181,79 +238,115 @@ def at_rest(design, grid, *, memory_order=1, step=DEFAULT_STEP):
         1 for the paper's recursion of the damping memory, 2 for the second-order one.
     step : float
         Displacement of the wheel against the contact spring [m].
+    comb : numpy.ndarray (taps,)
+        First stage of the low-pass filter, newest first [-]; by default none.
+    comb_factor : int
+        Time steps per row of the record.
 
     Returns
     -------
     State, Constants
         Arguments of :func:`trackig_core.kernel.advance`; shapes and units are given there.
     """
-    rail = design.rail
+    rail, layout = design.rail, Layout(grid)
     pad_law, boot_law = laws(design)
-    pad = pad_law.recursion(grid.dt, memory_order)
-    boot = boot_law.recursion(grid.dt, memory_order) if design.two_stage else (0.0, np.zeros(0), np.zeros(0))
-    bays = grid.half_bays
     state = State(
-        rail=np.zeros((grid.elements_per_bay, bays + 2)),
-        rail_velocity=np.zeros((grid.elements_per_bay, bays)),
-        block=np.zeros(bays),
-        block_velocity=np.zeros(bays),
+        rail=aligned_zeros((layout.elements + 2 * GHOSTS) * LANES),
+        rail_velocity=aligned_zeros(layout.elements * LANES),
+        supports=aligned_zeros(layout.bays, QUANTITIES * LANES),
         wheel=np.array([step, 0.0]),
-        pad_memory=np.zeros((pad[1].size, bays)),
-        boot_memory=np.zeros((boot[1].size, bays)),
-        compression=np.zeros(bays),
-        pad_force=np.zeros(bays),
+        window=aligned_zeros(comb.size, layout.columns(PROBES)),
     )
     constants = Constants(
+        layout.mirrors(),
+        np.array([layout.rail_place(0)]),
+        np.array([layout.block_place(0)]),
         grid.dt,
         grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
-        *pad,
-        *boot,
+        *_recursion(pad_law, grid.dt, memory_order),
+        *_recursion(boot_law, grid.dt, memory_order),
         element_mass=rail.mass_per_metre * grid.dx,
         block_mass=design.block_mass if design.two_stage else 1.0,
         wheel_mass=design.wheel_mass,
         contact_stiffness=design.contact_stiffness,
         two_stage=design.two_stage,
+        comb=comb,
+        comb_factor=comb_factor,
     )
     return state, constants
 
 
+def _recursion(law, time_step, memory_order):
+    """Return stiffness, decays and gains of a spring, as many as the kernel has terms; zero for no spring."""
+    if law is None:
+        return 0.0, np.zeros(TERMS), np.zeros(TERMS)
+    stiffness, decay, gain = law.recursion(time_step, memory_order)
+    missing = (0, TERMS - decay.size)
+    return stiffness, np.pad(decay, missing), np.pad(gain, missing)
+
+
 class _Run:
-    """One run under way: the kernel's state, and the samples that the filter still needs."""
+    """One run under way: the kernel's state, and the rows that the filter still needs."""
 
     def __init__(self, design, grid, memory_order, step):
-        self._state, self._constants = at_rest(design, grid, memory_order=memory_order, step=step)
+        self.filter = low_pass(grid.dt)
+        self._state, self._constants = at_rest(
+            design,
+            grid,
+            memory_order=memory_order,
+            step=step,
+            comb=self.filter.comb,
+            comb_factor=self.filter.comb_factor,
+        )
+        self._layout = Layout(grid)
         self._dt = grid.dt
-        self.taps = low_pass(grid.dt)
-        self._factor = decimation(grid.dt)
-        self._before = np.zeros((self.taps.size - 1, grid.half_bays + 2))
+        columns = self._state.window.shape[1]
+        rows = self.filter.taps.size - 1 + BLOCK_SAMPLES * self.filter.factor
+        self._rows = aligned_zeros(rows, columns)
+        self._kept = aligned_zeros(BLOCK_SAMPLES, columns)
         self.steps_done = 0
         self._fraction = 0.0
 
+    @property
+    def steps_per_sample(self):
+        """Time steps between decimated samples."""
+        return self.filter.comb_factor * self.filter.factor
+
     def sample_times(self, count):
         """Return the time that each decimated sample stands for [s]: the filter's centre."""
-        delay = (self.taps.size - 1) / 2
-        return (np.arange(count) * self._factor - delay) * self._dt
+        newest = np.arange(count) * self.steps_per_sample + self.filter.comb_factor - 1
+        return (newest - (self.filter.whole.size - 1) / 2) * self._dt
 
     def collect(self, steps, progress, cancelled):
-        """Take ``steps`` time steps and return their decimated samples (samples, supports + 2)."""
-        tail, columns = self._before.shape
-        samples = np.empty((steps // self._factor, columns))
-        buffer = np.empty((tail + BLOCK_SAMPLES * self._factor, columns))
+        """Take about ``steps`` time steps and return their decimated samples, supports in order, then probes.
+
+        Returns
+        -------
+        numpy.ndarray (samples, half_bays + 3)
+            Forces [N]; displacements of wheel, rail and block at the loaded support [m].
+        """
+        count = round(steps / self.steps_per_sample)
+        samples = np.empty((count, self._layout.width(PROBES)))
         began = self._fraction
-        for first in range(0, len(samples), BLOCK_SAMPLES):
+        for first in range(0, count, BLOCK_SAMPLES):
             if cancelled is not None and cancelled():
                 raise SolveCancelled("the run was cancelled")
             part = samples[first : first + BLOCK_SAMPLES]
-            block = buffer[: tail + len(part) * self._factor]
-            block[:tail] = self._before
-            kernel.advance(*self._state, *self._constants, block[tail:])
-            kernel.decimate(block, self.taps, self._factor, part)
-            self._before = block[-tail:].copy()
-            self.steps_done += len(part) * self._factor
+            self._fill(part)
             if not np.isfinite(part[-1]).all():
                 time = self.steps_done * self._dt
                 raise FloatingPointError(f"the run left the finite numbers {time:.3g} s after its start")
             if progress is not None:
-                self._fraction = began + (1 - began) / 2 * (first + len(part)) / len(samples)
+                self._fraction = began + (1 - began) / 2 * (first + len(part)) / count
                 progress(self._fraction)
         return samples
+
+    def _fill(self, samples):
+        """Step on, and fill the next samples."""
+        count, tail = len(samples), self.filter.taps.size - 1
+        rows = self._rows[: tail + count * self.filter.factor]
+        kernel.advance(*self._state, *self._constants, self.steps_done, rows[tail:])
+        self.steps_done += count * self.steps_per_sample
+        kernel.decimate(rows, self.filter.taps, self.filter.factor, self._kept[:count])
+        self._rows[:tail] = rows[-tail:].copy()
+        self._layout.put_in_order(self._kept[:count], samples)

@@ -14,7 +14,7 @@ from trackig_core.catalogue import PRESETS
 from trackig_core.convergence import time_step_errors
 from trackig_core.design import DesignError, TrackDesign
 from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain, summed_energy
-from trackig_core.grid import make_grid
+from trackig_core.grid import FEWEST_BAYS, make_grid
 from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
 from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
 from trackig_core.relaxation import laws
@@ -178,5 +178,5 @@ def _step_notes(design, grid):
 def compile_kernels():
     """Compile every kernel, or load it from Numba's cache on disk, by solving one small track."""
     design = PRESETS["booted-block-low-mass"]
-    simulate(design, make_grid(design, bays=3, record=0.25))
+    simulate(design, make_grid(design, bays=FEWEST_BAYS, record=0.25))
     natural_frequencies(design)
