@@ -18,6 +18,10 @@ REFERENCES = ("line", "rigid")
 SUMMATIONS = ("energy", "coherent")
 """Sums over the supports: of squared forces (the paper), or of forces."""
 
+ANCHOR_POINTS = 8
+"""Points of the spectrum on either side of the reference line's anchor that are joined by a spline [-]; it
+forgets what lies further away by a factor of four per point."""
+
 
 def insertion_gain(spectrum, design, loaded_track, reference="line", summation="energy"):
     """Return the insertion gain of a track per one-third-octave band.
@@ -54,7 +58,9 @@ def insertion_gain(spectrum, design, loaded_track, reference="line", summation="
     if reference == "line":
         # E grows as f^2 here: E / f^2 is nearly flat, so it may be interpolated between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        height = float(CubicSpline(frequency, energy / frequency**2)(anchor))
+        near = np.searchsorted(frequency, anchor)
+        around = slice(max(0, near - ANCHOR_POINTS), near + ANCHOR_POINTS)
+        height = float(CubicSpline(frequency[around], energy[around] / frequency[around] ** 2)(anchor))
     else:
         # E = (m_w w^2 step)^2 / w^2
         height = (2 * np.pi * design.wheel_mass * spectrum.step) ** 2

@@ -23,6 +23,7 @@ The one rule: a grid that exists is stable.
 import math
 from dataclasses import dataclass
 
+from trackig_core.low_pass import RECORD_RATE
 from trackig_core.relaxation import laws
 
 ELEMENTS_PER_BAY = 3
@@ -45,9 +46,6 @@ SHORTEST_RECORD = 0.01
 
 LONGEST_RECORD = 16.0
 """Length to which a record may be doubled while the force has not died down [s]."""
-
-RECORD_RATE = 4096.0
-"""Samples a second that are kept of each force after low-passing [Hz]."""
 
 MEMORY_LIMIT = 2e9
 """Bytes that a run may need; one that needs more is refused."""

@@ -97,6 +97,8 @@ def advance(
         Filled: force that each support passes into the ground [N], displacement of the wheel, of the
         rail's and of the blocks' probes [m].
     """
+    rail_rows = rail.reshape(rail.size // LANES, LANES)
+    velocity_rows = rail_velocity.reshape(rail_velocity.size // LANES, LANES)
     count = first
     for kept in range(record.shape[0]):
         for _ in range(factor):
@@ -105,12 +107,12 @@ def advance(
             probe(row, rail, supports, wheel, rail_probes, block_probes)
             if two_stage:
                 push_blocks(
-                    rail, rail_velocity, supports, row, time_step, element_mass, block_mass,
+                    rail_rows, velocity_rows, supports, row, time_step, element_mass, block_mass,
                     pad_stiffness, pad_decay, pad_gain, boot_stiffness, boot_decay, boot_gain,
                 )  # fmt: skip
             else:
                 push_ground(
-                    rail, rail_velocity, supports, row, time_step, element_mass,
+                    rail_rows, velocity_rows, supports, row, time_step, element_mass,
                     pad_stiffness, pad_decay, pad_gain,
                 )  # fmt: skip
             contact = contact_stiffness * (wheel[0] - rail[2 * LANES])
@@ -184,8 +186,8 @@ def answer(memory, place, strain, stiffness, keep0, keep1, keep2, feed0, feed1, 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
 def push_blocks(
-    rail,
-    rail_velocity,
+    rail_rows,
+    velocity_rows,
     supports,
     row,
     time_step,
@@ -202,14 +204,16 @@ def push_blocks(
 
     Parameters
     ----------
+    rail_rows, velocity_rows : numpy.ndarray (elements + 4, LANES) and (elements, LANES)
+        Displacements [m], ghosts included, and velocities [m/s] of the rail; the velocities are changed.
     row : numpy.ndarray
         Its first columns are filled with the boots' forces [N].
-    rail, rail_velocity, supports, time_step, element_mass, block_mass, pad_stiffness, pad_decay, \
+    supports, time_step, element_mass, block_mass, pad_stiffness, pad_decay, \
 pad_gain, boot_stiffness, boot_decay, boot_gain
         As in :func:`advance`.
     """
     bays = supports.shape[0]
-    step = rail_velocity.size // bays
+    step = velocity_rows.shape[0] // bays
     per_element, per_block = time_step / element_mass, time_step / block_mass
     p0, p1, p2 = pad_decay[0], pad_decay[1], pad_decay[2]
     q0, q1, q2 = pad_gain[0], pad_gain[1], pad_gain[2]
@@ -217,8 +221,8 @@ pad_gain, boot_stiffness, boot_decay, boot_gain
     c0, c1, c2 = boot_gain[0], boot_gain[1], boot_gain[2]
     for bay in range(bays):
         here = supports[bay]
-        above = rail[bay * step + 2 * LANES : bay * step + 3 * LANES]
-        velocity = rail_velocity[bay * step : bay * step + LANES]
+        above = rail_rows[bay * step + 2]
+        velocity = velocity_rows[bay * step]
         force = row[bay * LANES : (bay + 1) * LANES]
         for lane in range(LANES):
             block = here[lane]
@@ -233,26 +237,28 @@ pad_gain, boot_stiffness, boot_decay, boot_gain
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
 def push_ground(
-    rail, rail_velocity, supports, row, time_step, element_mass, pad_stiffness, pad_decay, pad_gain
+    rail_rows, velocity_rows, supports, row, time_step, element_mass, pad_stiffness, pad_decay, pad_gain
 ):
     """Let pads push rail and ground.
 
     Parameters
     ----------
+    rail_rows, velocity_rows : numpy.ndarray (elements + 4, LANES) and (elements, LANES)
+        Displacements [m], ghosts included, and velocities [m/s] of the rail; the velocities are changed.
     row : numpy.ndarray
         Its first columns are filled with the pads' forces [N].
-    rail, rail_velocity, supports, time_step, element_mass, pad_stiffness, pad_decay, pad_gain
+    supports, time_step, element_mass, pad_stiffness, pad_decay, pad_gain
         As in :func:`advance`.
     """
     bays = supports.shape[0]
-    step = rail_velocity.size // bays
+    step = velocity_rows.shape[0] // bays
     per_element = time_step / element_mass
     p0, p1, p2 = pad_decay[0], pad_decay[1], pad_decay[2]
     q0, q1, q2 = pad_gain[0], pad_gain[1], pad_gain[2]
     for bay in range(bays):
         here = supports[bay]
-        above = rail[bay * step + 2 * LANES : bay * step + 3 * LANES]
-        velocity = rail_velocity[bay * step : bay * step + LANES]
+        above = rail_rows[bay * step + 2]
+        velocity = velocity_rows[bay * step]
         force = row[bay * LANES : (bay + 1) * LANES]
         for lane in range(LANES):
             pad = answer(here, 2 * LANES + lane, above[lane], pad_stiffness, p0, p1, p2, q0, q1, q2)

@@ -16,6 +16,7 @@ from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 if TYPE_CHECKING:
     from trackig_core.design import TrackDesign
     from trackig_core.grid import Grid
+    from trackig_core.low_pass import LowPass
     from trackig_core.relaxation import Relaxation
 
 
@@ -34,8 +35,8 @@ class TimeHistory:
     wheel_displacement, rail_displacement, block_displacement : numpy.ndarray (samples,) [m]
         Displacement of the wheel, and of rail and block at the loaded support; ``block_displacement`` is
         None when single-stage.
-    low_pass : numpy.ndarray (taps,) [-]
-        Coefficients of the low-pass filter, applied at ``time_step``.
+    low_pass : LowPass
+        The filter that was applied before samples were taken.
     time_step : float [s]
         Time step of the run, before decimation.
     step : float [m]
@@ -52,7 +53,7 @@ class TimeHistory:
     wheel_displacement: np.ndarray = field(repr=False)
     rail_displacement: np.ndarray = field(repr=False)
     block_displacement: np.ndarray | None = field(repr=False)
-    low_pass: np.ndarray = field(repr=False)
+    low_pass: LowPass = field(repr=False)
     time_step: float
     step: float
     steps: int

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from trackig_core import harmonic
+from trackig_core import harmonic, live
 from trackig_core.bands import BAND_EDGES, decibels
 from trackig_core.catalogue import PRESETS
 from trackig_core.convergence import time_step_errors
@@ -31,7 +31,7 @@ LARGE_STEP_ERROR = 0.5
 LARGE_DOUBT = 0.1
 """Difference between two ways to integrate a band, above which the solution says so [dB]."""
 
-FIDELITIES = ("paper", "exact")
+FIDELITIES = ("paper", "live", "exact")
 """Fidelities that :func:`solve` offers."""
 
 
@@ -52,6 +52,8 @@ def solve(
         The track; ``PRESETS`` has four.
     fidelity : str
         ``"paper"``: the paper's finite-difference grid, time step, damping recursion and record.
+        ``"live"``: the same scheme on the cheapest grid that keeps every band within 0.05 dB of the exact
+        answer, with a second-order damping recursion; it says in ``grid`` and ``notes`` what it chose.
         ``"exact"``: the same lattice, infinitely long and in continuous time, solved frequency by
         frequency in closed form; nothing is stepped, so there are no time records.
     reference : str
@@ -89,14 +91,21 @@ def solve(
     frequencies = natural_frequencies(design)
     pad_law, boot_law = laws(design)
     grid, history, notes = None, None, ()
+    watching = {"progress": progress, "cancelled": cancelled}
     if fidelity == "exact":
         refuse_if_unbounded(design)
         spectrum = banded_spectrum(design, frequencies.loaded_track)
+    elif fidelity == "live":
+        chosen = live.plan(design, frequencies.loaded_track)
+        grid = chosen.grid
+        history = simulate(design, grid, memory_order=live.MEMORY_ORDER, ending=live.Settled(), **watching)
+        spectrum = force_spectrum(history, live.PADDING)
+        notes = _plan_notes(chosen, history)
     else:
         grid = make_grid(design)
-        history = simulate(design, grid, progress=progress, cancelled=cancelled)
+        history = simulate(design, grid, **watching)
         spectrum = force_spectrum(history)
-        notes = grid.notes + _record_notes(grid, history) + _step_notes(design, grid)
+        notes = grid.notes + _extension_notes(grid, history) + _step_notes(design, grid)
     gain = insertion_gain(spectrum, design, frequencies.loaded_track, reference, summation)
     if fidelity == "exact":
         notes = _sharpness_notes(spectrum, gain)
@@ -140,16 +149,29 @@ def _fit_notes(pad_law, boot_law):
     )
 
 
-def _record_notes(grid, history):
-    """Return what is to be said of the length of a record."""
-    record = history.steps * grid.dt
-    notes = ()
-    if history.steps > grid.steps:
-        until = ", until the force had died down" if history.decayed else ""
-        notes += (f"record extended to {record:g} s{until}",)
-    if not history.decayed:
-        notes += (f"the force had not died down by 80 dB at {record:g} s: do not trust sharp resonances",)
-    return notes
+def _extension_notes(grid, history):
+    """Return what is to be said of the length of the paper's record."""
+    if history.steps == grid.steps:
+        return _decay_notes(history)
+    until = ", until the force had died down" if history.decayed else ""
+    return (f"record extended to {history.steps * grid.dt:g} s{until}", *_decay_notes(history))
+
+
+def _decay_notes(history):
+    """Return what is to be said of a force that had not died down when its record ended."""
+    if history.decayed:
+        return ()
+    record = history.steps * history.time_step
+    return (f"the force had not died down by 80 dB at {record:.3g} s: do not trust sharp resonances",)
+
+
+def _plan_notes(chosen, history):
+    """Return what live fidelity chose, and whether that is good enough."""
+    grid, record = chosen.grid, history.steps * history.time_step
+    notes = (f"{grid.bays} bays, {1 / grid.dt:.0f} steps a second, a record of {record:.2g} s",)
+    if chosen.error > live.BUDGET:
+        notes += (f"time step and ring cost up to {chosen.error:.2f} dB in a band",)
+    return notes + _decay_notes(history)
 
 
 def _sharpness_notes(spectrum, gain):

@@ -8,45 +8,60 @@ The one rule: nothing is said above the low-pass filter's pass band.
 """
 
 import numpy as np
-from scipy.fft import rfft
+from scipy.fft import next_fast_len, rfft
 
 from trackig_core.results import ForceSpectrum
 
 TOP_FREQUENCY = 600.0
 """Highest frequency of a spectrum [Hz]: above the upper edge of the 500 Hz band, 562 Hz."""
 
+COLUMNS = 32
+"""Supports that are transformed at a time [-], so that transforms stay small beside the record itself."""
 
-def force_spectrum(history):
+
+def force_spectrum(history, padding=1):
     """Return the energy spectrum of a run, corrected for the low-pass filter's own response.
 
     Parameters
     ----------
     history : TimeHistory
         Record of the run.
+    padding : float
+        Length of the transform in parts of the record [-], which zeros make longer: a force that has died
+        down stays so.
 
     Returns
     -------
     ForceSpectrum
-        At multiples of one over the record's length, up to 600 Hz.
+        At multiples of one over the transform's length, up to 600 Hz.
     """
-    frequency, interval = _axis(history)
-    correction = (interval / filter_gain(history.low_pass, history.time_step, frequency)) ** 2
+    length = transform_length(history, padding)
+    frequency, interval = _axis(history, length)
+    correction = (interval / history.low_pass.gain(frequency)) ** 2
 
+    # Plain sums: a product of matrices would be shared among threads, which wait for each other when other
+    # solves keep the cores busy.
     energy = np.zeros(len(frequency))
     total = np.zeros(len(frequency), dtype=complex)
-    # A few supports at a time, so that the transforms stay small beside the record itself.
-    for first in range(0, history.multiplicity.size, 32):
-        some = slice(first, first + 32)
+    for first in range(0, history.multiplicity.size, COLUMNS):
+        some = slice(first, first + COLUMNS)
         forces = np.ascontiguousarray(history.support_force[:, some].T)
-        transforms = rfft(forces, axis=1)[:, 1 : len(frequency) + 1]
-        energy += history.multiplicity[some] @ (transforms.real**2 + transforms.imag**2)
-        total += history.multiplicity[some] @ transforms
+        transforms = rfft(forces, length, axis=1)[:, 1 : len(frequency) + 1]
+        share = history.multiplicity[some, None]
+        energy += np.sum(share * (transforms.real**2 + transforms.imag**2), axis=0)
+        total += np.sum(share * transforms, axis=0)
     return ForceSpectrum(
         frequency=frequency,
         energy=correction * energy,
         coherent_energy=correction * np.abs(total) ** 2,
         step=history.step,
     )
+
+
+def transform_length(history, padding):
+    """Return the number of samples of a transform: ``padding`` times the record's, or a little more."""
+    samples = len(history.time)
+    return samples if padding == 1 else next_fast_len(round(padding * samples), real=True)
 
 
 def block_to_rail(history):
@@ -64,35 +79,13 @@ def block_to_rail(history):
     ratio : numpy.ndarray (frequencies,)
         Magnitude of block over rail displacement [-]; the low-pass filter's response cancels.
     """
-    frequency, _ = _axis(history)
+    frequency, _ = _axis(history, len(history.time))
     some = slice(1, len(frequency) + 1)
     return frequency, np.abs(rfft(history.block_displacement)[some] / rfft(history.rail_displacement)[some])
 
 
-def _axis(history):
-    """Return the frequencies of a record's transform up to 600 Hz, zero left out, and its interval [s]."""
-    samples = len(history.time)
-    interval = (history.time[-1] - history.time[0]) / (samples - 1)
-    count = int(TOP_FREQUENCY * samples * interval) + 1
-    return np.arange(1, count) / (samples * interval), interval
-
-
-def filter_gain(taps, time_step, frequency):
-    """Return the magnitude of a filter's frequency response.
-
-    Parameters
-    ----------
-    taps : numpy.ndarray (taps,)
-        Symmetric coefficients [-].
-    time_step : float
-        Interval between taps [s].
-    frequency : numpy.ndarray (frequencies,)
-        Frequencies [Hz].
-
-    Returns
-    -------
-    numpy.ndarray (frequencies,)
-        Gain [-].
-    """
-    from_centre = np.arange(taps.size) - (taps.size - 1) / 2
-    return np.cos(2 * np.pi * time_step * np.outer(frequency, from_centre)) @ taps
+def _axis(history, length):
+    """Return the frequencies of a transform up to 600 Hz, zero left out, and its interval [s]."""
+    interval = (history.time[-1] - history.time[0]) / (len(history.time) - 1)
+    count = int(TOP_FREQUENCY * length * interval) + 1
+    return np.arange(1, count) / (length * interval), interval

@@ -8,9 +8,10 @@ from tests.core.slow import run_ring
 from trackig_core import simulate as seam
 from trackig_core.grid import make_grid
 from trackig_core.harmonic import Lattice, receptance
+from trackig_core.low_pass import low_pass
 from trackig_core.relaxation import laws
-from trackig_core.simulate import low_pass, simulate
-from trackig_core.spectrum import filter_gain, force_spectrum
+from trackig_core.simulate import simulate
+from trackig_core.spectrum import force_spectrum
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
 
@@ -20,14 +21,14 @@ def test_the_low_pass_keeps_the_bands_and_stops_what_would_fold_onto_them(time_s
     low = low_pass(time_step)
     kept_rate = 1 / time_step / (low.comb_factor * low.factor)
     assert kept_rate == pytest.approx(4096)
-    passed = filter_gain(low.whole, time_step, np.linspace(0, 600, 601))
+    passed = low.gain(np.linspace(0, 600, 601))
     assert np.abs(20 * np.log10(passed)).max() < 0.03
     folding = [np.linspace(n * kept_rate - 600, n * kept_rate + 600, 201) for n in (1, 2, 3)]
-    assert np.abs(filter_gain(low.whole, time_step, np.concatenate(folding))).max() < 10 ** (-145 / 20)
+    assert np.abs(low.gain(np.concatenate(folding))).max() < 10 ** (-145 / 20)
     after_comb = 1 / time_step / low.comb_factor
     combed = [np.linspace(n * after_comb - 600, n * after_comb + 600, 201) for n in range(1, low.comb_factor)]
     if combed:
-        assert np.abs(filter_gain(low.whole, time_step, np.concatenate(combed))).max() < 10 ** (-115 / 20)
+        assert np.abs(low.gain(np.concatenate(combed))).max() < 10 ** (-115 / 20)
 
 
 @pytest.mark.parametrize("time_step", [1 / 131072, 1 / 98304])
@@ -35,7 +36,7 @@ def test_samples_are_the_filtered_forces_of_the_plain_transcription(time_step):
     grid = make_grid(SLAB, bays=17, record=0.0625, time_step=time_step)
     history = simulate(SLAB, grid)
     forces, *_ = run_ring(SLAB, *laws(SLAB), 17, 3, grid.dt, 4096)
-    taps = history.low_pass
+    taps = history.low_pass.whole
     smooth = np.convolve(forces[:, 0], taps)[: len(forces)]
     newest = np.round((history.time / grid.dt) + (taps.size - 1) / 2).astype(int)
     newest = newest[newest < len(smooth)]
