@@ -13,7 +13,7 @@ from panel.util import edit_readonly
 from dashboard import style
 from dashboard.checker import Checker
 from dashboard.controls import Controls
-from dashboard.runner import Runner, shared_store
+from dashboard.runner import Runner, shared_live_store, shared_store
 from dashboard.state import DesignInputs, Outcome, Presentation
 from dashboard.views.explore import Explore
 from dashboard.views.status import Status
@@ -31,13 +31,13 @@ class Busy(param.Parameterized):
     value = param.Boolean(default=False)
 
 
-def build(store=None):
+def build(store=None, live_store=None):
     """Make the page of one session.
 
     Parameters
     ----------
-    store : SolutionStore, optional
-        Where solutions come from; by default the one that all sessions share.
+    store, live_store : SolutionStore, optional
+        Where pictures come from, at rest and moving; by default those that all sessions share.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def build(store=None):
     """
     pn.extension(notifications=True, reconnect=True, exception_handler=tell)
     inputs, outcome, presentation = DesignInputs(), Outcome(), Presentation()
-    runner = Runner(inputs, outcome, store or shared_store())
+    runner = Runner(inputs, outcome, store or shared_store(), live_store or shared_live_store())
     runner.start()
     Checker(outcome)
     pn.state.on_session_destroyed(runner.close)

@@ -4,7 +4,7 @@ The one rule: no user waits for a compiler.
 """
 
 import trackig_core as tig
-from dashboard.runner import FIDELITY, shared_store
+from dashboard.runner import AT_REST, shared_live_store, shared_store
 from dashboard.state import OPENING_PRESET
 
 
@@ -12,9 +12,10 @@ def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     """Compile the kernels, and begin to solve the presets, the opening one first."""
     tig.compile_kernels()
     for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
-        shared_store().request((tig.PRESETS[key], FIDELITY))
+        shared_store().request((tig.PRESETS[key], AT_REST))
 
 
 def on_server_unloaded(server_context):  # noqa: ARG001
     """End whatever is being solved, so that the process can end."""
     shared_store().close()
+    shared_live_store().close()

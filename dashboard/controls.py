@@ -29,6 +29,12 @@ BOX_WIDTH = 92
 """Width of a number box [px]."""
 
 
+class QuickSlider(pmui.FloatSlider):
+    """A slider that tells its moves after 10 ms, not Panel's 50 ms; the runner drops what is too many."""
+
+    _debounce = 10
+
+
 class QuantityControl(Viewer):
     """One number as slider and box, both bound to the same input.
 
@@ -47,7 +53,7 @@ class QuantityControl(Viewer):
         self._log = name in STIFFNESSES
         enabled = inputs.param.two_stage if name in SECOND_STAGE else None
         disabled = enabled.rx.not_() if enabled is not None else False
-        self.slider = pmui.FloatSlider(
+        self.slider = QuickSlider(
             label=self._number.label,
             start=0,
             end=self._to_slider(self._number.bounds[1]),

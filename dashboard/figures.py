@@ -11,6 +11,7 @@ would leave them, or would fill less than half.
 import math
 
 import numpy as np
+from bokeh.events import RangesUpdate
 from bokeh.models import (
     BoxZoomTool,
     ColumnDataSource,
@@ -28,6 +29,7 @@ from bokeh.models import (
     WheelZoomTool,
 )
 from bokeh.plotting import figure
+from tsdownsample import MinMaxDownsampler
 
 import trackig_core as tig
 from dashboard import style
@@ -49,6 +51,13 @@ BAND_AXIS = (tig.BAND_EDGES[0], tig.BAND_EDGES[-1])
 
 TIME_AXIS = (-0.005, 0.25)
 """What the time axis shows at first [s]; the rest of the record is a pan or a zoom away."""
+
+POINTS_IN_VIEW = 2400
+"""Samples of a curve in view that are sent whole, and to which more are thinned [-]: two a column of a wide
+screen's pixels."""
+
+POINTS_BEYOND = 400
+"""The same for what lies out of view on either side [-], until it is moved into view."""
 
 SHOWN_AS_MILLISECONDS = 1.0
 """Span of the time axis below which it counts in ms [s]."""
@@ -107,6 +116,38 @@ def rungs(low, high):
         for size, power in zip(sizes, powers, strict=True)
     ]
     return -ends[0], ends[1], min(powers)
+
+
+def outline(time, curves, start, end):
+    """Return which samples draw curves as they look on a screen.
+
+    Of every column of pixels in view, and of every wider one beyond, the highest and the lowest sample is
+    kept: no peak is lost.
+
+    Parameters
+    ----------
+    time : numpy.ndarray (samples,)
+        Ascending [s].
+    curves : sequence of numpy.ndarray (samples,)
+        What is drawn.
+    start, end : float
+        What is in view [s].
+
+    Returns
+    -------
+    numpy.ndarray of int
+        Indices, ascending.
+    """
+    first, last = np.searchsorted(time, [start, end])
+    parts = [(0, first, POINTS_BEYOND), (first, last, POINTS_IN_VIEW), (last, time.size, POINTS_BEYOND)]
+    kept = [np.array([0, time.size - 1])]
+    for begin, stop, points in parts:
+        if stop - begin <= points:
+            kept.append(np.arange(begin, stop))
+        else:
+            extremes = MinMaxDownsampler()
+            kept += [begin + extremes.downsample(curve[begin:stop], n_out=points) for curve in curves]
+    return np.unique(np.concatenate(kept).astype(np.int64))
 
 
 class AxisEnds:
@@ -300,8 +341,10 @@ class ForceFigure:
             y_axis_label="Force into the ground, kN",
             stylesheets=[style.LOW],
         )
+        self._picture = None
         self._count_time_as_zoom_asks()
         self._draw_forces()
+        self.model.on_event(RangesUpdate, self._zoomed)
 
     def _count_time_as_zoom_asks(self):
         axis, ends = self.model.xaxis[0], self.model.x_range
@@ -348,10 +391,22 @@ class ForceFigure:
         low = min(picture.total_force.min(), picture.loaded_support_force.min())
         high = max(picture.total_force.max(), picture.loaded_support_force.max())
         self._forces.show(*rungs(low, high))
+        self._picture = picture
+        self._send(self.model.x_range.start, self.model.x_range.end)
+
+    def _zoomed(self, event):
+        if self._picture is not None:
+            self._send(event.x0, event.x1)
+
+    def _send(self, start, end):
+        """Send as much of the record as can be seen: all that lies in view, an outline of the rest."""
+        time, curves = self._picture.time, (self._picture.loaded_support_force, self._picture.total_force)
+        some = outline(time, curves, start, end)
+        loaded_support, total = (curve[some].astype(np.float32) for curve in curves)
         self.samples.data = {
-            "time": picture.time.astype(np.float32),
-            "loaded_support": picture.loaded_support_force.astype(np.float32),
-            "total": picture.total_force.astype(np.float32),
+            "time": time[some].astype(np.float32),
+            "loaded_support": loaded_support,
+            "total": total,
         }
 
 

@@ -1,14 +1,16 @@
 """Turns changed inputs into a new outcome, off the event loop.
 
-While one solve runs, the newest inputs wait in a single slot and all older ones are dropped, so a
-dragged slider costs no more solves than fit. A solve that takes long gives way to newer inputs at
-once; a short one is finished, so that pictures follow the slider. Solutions come from a store
+While inputs move, each newest state is solved at live fidelity, in some milliseconds, and older ones that
+still wait are dropped: pictures follow the hand. When inputs rest, the paper's run of the same design takes
+the picture's place. A paper run under way gives way to newer inputs at once. Solutions come from stores
 that all sessions share.
 
-The one rule: the last good picture stays until a better one is there.
+The one rule: the last good picture stays until a better one is there, and no picture follows one of newer
+inputs.
 """
 
 import asyncio
+import contextlib
 import dataclasses
 import functools
 import logging
@@ -23,18 +25,30 @@ import trackig_core as tig
 from dashboard.state import KILONEWTON, PHYSICAL, Picture
 from dashboard.store import SolutionStore
 
-FIDELITY = "paper"
-"""Which solver the pictures show."""
+AT_REST = "paper"
+"""Fidelity of the pictures that stay."""
+
+MOVING = "live"
+"""Fidelity of the pictures that follow the hand."""
+
+REST = 0.2
+"""Seconds without a change after which inputs are at rest."""
+
+PATIENCE = 0.5
+"""Seconds of work after which a live run, under light damping, is given up for the paper's."""
 
 CAPACITY = 128
 """Pictures kept; one holds 0.2 MB for a record of 2 s, 1.6 MB for one of 16 s."""
 
+LIVE_CAPACITY = 32
+"""Live pictures kept: a slider drawn to and fro asks for the same ones again."""
+
 LOOK_EVERY = 0.1
 """Seconds between looks at a solve under way."""
 
-LONG = 2.0
-"""Seconds of work after which a solve counts as long: it shows its progress, can be stopped, and gives way
-to newer inputs. Time spent waiting for a worker does not count: else a busy server would finish none."""
+LONG = 1.0
+"""Seconds of work after which a solve counts as long: it shows its progress and can be stopped. Time spent
+waiting for a worker does not count: a busy server is not slow inputs."""
 
 STOPPED = "Stopped. The pictures show the last track that was solved."
 
@@ -74,14 +88,21 @@ def take_picture(key, progress, cancelled):
 
 @functools.cache
 def workers():
-    """Return the threads that all sessions of this process share."""
+    """Return the threads that all sessions of this process share for work that takes its time."""
     return ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="solver")
 
 
 @functools.cache
 def shared_store():
-    """Return the store that all sessions of this process share; the first call makes it."""
+    """Return the store of pictures at rest that all sessions of this process share."""
     return SolutionStore(take_picture, workers(), CAPACITY)
+
+
+@functools.cache
+def shared_live_store():
+    """Return the store of pictures that follow the hand; its own threads wait for nobody's paper run."""
+    threads = ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="live")
+    return SolutionStore(take_picture, threads, LIVE_CAPACITY)
 
 
 class _StoppedError(Exception):
@@ -89,7 +110,11 @@ class _StoppedError(Exception):
 
 
 class _SupersededError(Exception):
-    """Newer inputs arrived while a long solve ran."""
+    """Newer inputs arrived."""
+
+
+class _SlowError(Exception):
+    """A live run takes longer than the paper's would."""
 
 
 class Latest:
@@ -102,24 +127,32 @@ class Latest:
 
     Attributes
     ----------
-    pending : bool
-        Whether it was asked for since it last began.
+    news : asyncio.Event
+        Set while it was asked for since it last began.
     """
 
     def __init__(self, work):
         self._work = work
         self._running = False
-        self.pending = False
+        self.news = asyncio.Event()
+
+    @property
+    def pending(self):
+        """Whether it was asked for since it last began."""
+        return self.news.is_set()
 
     async def ask(self, *_):
         """Ask for the work, and see it through unless it is under way already."""
-        self.pending = True
         if self._running:
+            self.news.set()
             return
+        # an event belongs to the loop in which it is first waited for
+        self.news = asyncio.Event()
+        self.news.set()
         self._running, document = True, pn.state.curdoc
         try:
             while self.pending:
-                self.pending = False
+                self.news.clear()
                 await self._work(document)
         finally:
             self._running = False
@@ -134,14 +167,15 @@ class Runner:
         What is watched.
     outcome : Outcome
         What is kept up to date.
-    store : SolutionStore
-        Where solutions come from.
+    store, live_store : SolutionStore
+        Where pictures at rest come from, and those that follow the hand.
     """
 
-    def __init__(self, inputs, outcome, store):
+    def __init__(self, inputs, outcome, store, live_store):
         self.inputs = inputs
         self.outcome = outcome
         self._store = store
+        self._live_store = live_store
         self._latest = Latest(self._solve)
         self._stopping = False
         self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
@@ -149,7 +183,7 @@ class Runner:
     def start(self):
         """Show the picture of the inputs as they stand: at once if the store has it, else when solved."""
         design = self.inputs.to_design()
-        picture = self._store.kept((design, FIDELITY))
+        picture = self._store.kept((design, AT_REST))
         if picture is None:
             self.solve_again()
         else:
@@ -158,7 +192,7 @@ class Runner:
     def stop(self, *_):
         """Give up the solve under way, and what waits behind it."""
         self._stopping = True
-        self._latest.pending = False
+        self._latest.news.clear()
 
     def solve_again(self, *_):
         """Solve the inputs as they stand, after a stop or a failure."""
@@ -174,15 +208,18 @@ class Runner:
         await self._latest.ask()
 
     async def _solve(self, document):
-        self._publish(document, busy=True)
+        if self.outcome.picture is None or self.outcome.problem:
+            self._publish(document, busy=True)
         try:
             design = self.inputs.to_design()
-            picture, from_cache = await self._obtain(design, document)
+            if self.outcome.picture is not None and self._store.kept((design, AT_REST)) is None:
+                await self._follow(design, document)
+            picture, from_cache = await self._obtain((design, AT_REST), document)
             changes = self._success(design, picture, from_cache)
             self._publish(document, **changes)
             modified = design != self.inputs.preset_design
-            if modified and changes["preset_picture"] is None and not self._latest.pending:
-                ghost, _ = await self._obtain(self.inputs.preset_design, document)
+            if modified and changes["preset_picture"] is None:
+                ghost, _ = await self._obtain((self.inputs.preset_design, AT_REST), document)
                 self._publish(document, preset_picture=ghost)
         except _SupersededError:
             self._publish(document, progress=None)
@@ -191,38 +228,74 @@ class Runner:
         except Exception as error:
             self._publish(document, busy=self._latest.pending, progress=None, problem=readable(error))
 
+    async def _follow(self, design, document):
+        """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
+        # what live fidelity refuses or gives up, the paper's run answers or explains
+        with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
+            picture, _ = await self._obtain((design, MOVING), document)
+            self._publish(document, **self._success(design, picture, from_cache=False))
+        if await self._news_within(REST):
+            raise _SupersededError
+
+    async def _news_within(self, seconds):
+        """Wait some time at most, and return whether newer inputs arrived."""
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(self._latest.news.wait(), seconds)
+        return self._latest.pending
+
     def _success(self, design, picture, from_cache):
-        modified = design != self.inputs.preset_design
-        ghost = self._store.kept((self.inputs.preset_design, FIDELITY)) if modified else None
         return {
             "picture": picture,
-            "preset_picture": ghost,
+            "preset_picture": self._ghost(design),
             "from_cache": from_cache,
             "busy": self._latest.pending,
             "progress": None,
             "problem": "",
         }
 
-    async def _obtain(self, design, document):
-        job = self._store.request((design, FIDELITY))
+    def _ghost(self, design):
+        """Return the picture of the preset that a design departs from, if it does and there is one."""
+        preset, shown = self.inputs.preset_design, self.outcome.preset_picture
+        if design == preset:
+            return None
+        return shown if shown is not None and shown.design == preset else self._store.kept((preset, AT_REST))
+
+    async def _obtain(self, key, document):
+        store = self._live_store if key[1] == MOVING else self._store
+        job = store.request(key)
         try:
             await self._wait(job, document)
             return job.future.result(), job.from_cache
         finally:
-            self._store.release(job)
+            store.release(job)
 
     async def _wait(self, job, document):
         future = asyncio.wrap_future(job.future)
         # an abandoned job may still raise; nobody is left to hear it
         future.add_done_callback(lambda done: done.cancelled() or done.exception())
+        moving = job.key[1] == MOVING
         while not future.done():
-            await asyncio.wait({future}, timeout=LOOK_EVERY)
-            if self._stopping and not future.done():
+            await self._look_up(future, whatever_is_new=not moving)
+            if future.done():
+                return
+            if self._stopping:
                 raise _StoppedError
-            if not future.done() and job.began is not None and time.monotonic() - job.began > LONG:
-                if self._latest.pending:
-                    raise _SupersededError
-                self._publish(document, progress=job.fraction)
+            worked = 0.0 if job.began is None else time.monotonic() - job.began
+            if moving and worked > PATIENCE:
+                raise _SlowError
+            if not moving and self._latest.pending:
+                raise _SupersededError
+            if worked > LONG:
+                self._publish(document, busy=True, progress=job.fraction)
+
+    async def _look_up(self, future, whatever_is_new):
+        """Wait until a solve is done, for a while at most, or until newer inputs arrive."""
+        news = asyncio.ensure_future(self._latest.news.wait())
+        try:
+            waited_for = {future, news} if whatever_is_new else {future}
+            await asyncio.wait(waited_for, timeout=LOOK_EVERY, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            news.cancel()
 
     def _publish(self, document, **changes):
         publish(self.outcome, document, **changes)
@@ -243,12 +316,14 @@ def publish(outcome, document, **changes):
     if document is None or document.session_context is None:
         _apply(outcome, changes)
     else:
-        document.add_next_tick_callback(partial(_apply, outcome, changes))
+        document.add_next_tick_callback(partial(_apply, outcome, changes, document))
 
 
-def _apply(outcome, changes):
+def _apply(outcome, changes, document=None):
     try:
-        outcome.param.update(**changes)
+        # all that a frame changes goes to the browser in one message
+        with pn.io.hold(document):
+            outcome.param.update(**changes)
     except Exception:
         log.exception("A solution could not be drawn")
         outcome.param.update(busy=False, progress=None, problem=NOT_DRAWN)

@@ -32,22 +32,30 @@ class Explore(Viewer):
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
         self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
+        self.fidelity = pmui.Chip(
+            label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
+        )
         self.choices = [
             pn.widgets.Select.from_param(
                 parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[style.SELECT_CSS]
             )
             for parameter in (presentation.param.summation, presentation.param.reference)
         ]
-        outcome.param.watch(self._show, "picture")
-        outcome.param.watch(self._show_gain, "preset_picture")
+        outcome.param.watch(self._show, ["picture", "preset_picture"])
         outcome.param.watch(self._dim, ["problem", "progress"])
         presentation.param.watch(self._show_gain, ["reference", "summation"])
         self._show()
 
-    def _show(self, *_):
-        if self._outcome.picture is not None:
-            self.force.show(self._outcome.picture)
+    def _show(self, *events):
+        picture = self._outcome.picture
+        if picture is not None and (not events or any(event.name == "picture" for event in events)):
+            self.force.show(picture)
+            self._name_fidelity(picture.solution.fidelity)
         self._show_gain()
+
+    def _name_fidelity(self, fidelity):
+        words, variant = FIDELITY_CHIPS[fidelity]
+        self.fidelity.param.update(label=words, variant=variant, visible=True)
 
     def _show_gain(self, *_):
         chosen = self._presentation
@@ -69,7 +77,13 @@ class Explore(Viewer):
         """Return what is put on the page."""
         gain_pane, force_pane = self.panes
         gain = pmui.Paper(
-            pmui.Row(caption(GAIN_TITLE, ""), pn.HSpacer(), *self.choices, sizing_mode="stretch_width"),
+            pmui.Row(
+                caption(GAIN_TITLE, ""),
+                self.fidelity,
+                pn.HSpacer(),
+                *self.choices,
+                sizing_mode="stretch_width",
+            ),
             pmui.Typography(GAIN_WORDS, variant="body2", color="text.secondary", margin=(0, 12, 4, 12)),
             gain_pane,
             **PAPER,
@@ -86,6 +100,9 @@ class Explore(Viewer):
             margin=(0, 8, 8, 8),
         )
 
+
+FIDELITY_CHIPS = {"live": ("live run", "filled"), "paper": ("paper's run", "outlined")}
+"""What the chip beside the title says of each fidelity, and how it looks."""
 
 WIDE, NARROW = {"xs": 12, "lg": 7}, {"xs": 12, "lg": 5}
 

@@ -84,12 +84,18 @@ def status_words(outcome):
     outcome : Outcome
         How the solver fares.
     """
-    if outcome.busy:
-        return "Solving a long record …" if outcome.progress is not None else "Solving …"
-    if outcome.problem:
+    if outcome.progress is not None:
+        return "Solving a long record …"
+    if outcome.problem and not outcome.busy:
         return outcome.problem
     if outcome.picture is None:
-        return "Not solved yet"
-    took = style.duration_text(outcome.picture.seconds)
-    words = f"From cache (solved before in {took})" if outcome.from_cache else f"Solved in {took}"
-    return " · ".join((words, *outcome.picture.solution.notes))
+        return "Solving …" if outcome.busy else "Not solved yet"
+    picture = outcome.picture
+    took = style.duration_text(picture.seconds)
+    if picture.solution.fidelity == "live":
+        words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
+    elif outcome.from_cache:
+        words = f"Paper's run, from cache (solved before in {took})"
+    else:
+        words = f"Paper's run, solved in {took}"
+    return " · ".join((words, *picture.solution.notes))

@@ -8,13 +8,13 @@ import panel as pn
 import pytest
 
 import trackig_core as tig
-from dashboard.runner import FIDELITY, take_picture
+from dashboard.runner import AT_REST, take_picture
 from dashboard.store import SolutionStore
 
 
 @cache
 def _picture(preset):
-    return take_picture((tig.PRESETS[preset], FIDELITY), lambda *_: None, lambda: False)
+    return take_picture((tig.PRESETS[preset], AT_REST), lambda *_: None, lambda: False)
 
 
 @pytest.fixture
@@ -28,10 +28,9 @@ def fake_picture(picture):
     """Return a function that makes a picture of any design without solving it."""
     real = picture("booted-block-low-mass")
 
-    def fake(design, notes=()):
-        return dataclasses.replace(
-            real, solution=dataclasses.replace(real.solution, design=design, notes=notes)
-        )
+    def fake(design, notes=(), fidelity=AT_REST):
+        solution = dataclasses.replace(real.solution, design=design, notes=notes, fidelity=fidelity)
+        return dataclasses.replace(real, solution=solution)
 
     return fake
 
@@ -53,7 +52,7 @@ def make_store():
 @pytest.fixture
 def instant_store(make_store, fake_picture):
     """Return a store that answers at once with pictures that were never solved."""
-    return make_store(lambda key, *_: fake_picture(key[0]))
+    return make_store(lambda key, *_: fake_picture(key[0], fidelity=key[1]))
 
 
 @pytest.fixture(autouse=True)

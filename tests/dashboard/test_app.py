@@ -12,7 +12,7 @@ from panel.util import edit_readonly
 import dashboard
 import trackig_core as tig
 from dashboard import app, app_hooks
-from dashboard.runner import FIDELITY
+from dashboard.runner import AT_REST
 
 MAIN = Path(dashboard.__file__).parent / "main.py"
 
@@ -20,7 +20,7 @@ MAIN = Path(dashboard.__file__).parent / "main.py"
 @pytest.fixture
 def store(instant_store):
     """Return a store that has the opening picture already."""
-    instant_store.request((tig.PRESETS["booted-block-low-mass"], FIDELITY)).future.result(30)
+    instant_store.request((tig.PRESETS["booted-block-low-mass"], AT_REST)).future.result(30)
     return instant_store
 
 
@@ -87,7 +87,7 @@ def test_the_server_begins_with_the_opening_preset(monkeypatch):
     monkeypatch.setattr(tig, "compile_kernels", lambda: compiled.append(True))
     app_hooks.on_server_loaded(None)
     assert compiled
-    assert fake.requested[0] == (tig.PRESETS["booted-block-low-mass"], FIDELITY)
+    assert fake.requested[0] == (tig.PRESETS["booted-block-low-mass"], AT_REST)
     assert {design for design, _ in fake.requested} == set(tig.PRESETS.values())
     app_hooks.on_server_unloaded(None)
     assert fake.closed

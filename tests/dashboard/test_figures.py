@@ -4,12 +4,23 @@ import dataclasses
 
 import numpy as np
 import pytest
+from bokeh.events import RangesUpdate
 from bokeh.models import HoverTool
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from dashboard.figures import ForceFigure, InsertionGainFigure, nice_step, rungs, settled_range
+from dashboard.figures import (
+    POINTS_BEYOND,
+    POINTS_IN_VIEW,
+    TIME_AXIS,
+    ForceFigure,
+    InsertionGainFigure,
+    nice_step,
+    outline,
+    rungs,
+    settled_range,
+)
 
 # the least floats that there are would be lost when divided by a step
 ENDS = st.tuples(st.floats(-200, 200, allow_subnormal=False), st.floats(0.1, 200)).map(
@@ -187,14 +198,53 @@ def test_the_forces_are_drawn_in_kilonewton(picture):
     force.show(shown)
     solution = tig.solve(tig.PRESETS["booted-block-low-mass"])
     data = force.samples.data
-    scale = np.abs(solution.total_force).max() / 1000
-    np.testing.assert_allclose(data["time"], solution.time, atol=1e-6)
-    np.testing.assert_allclose(data["total"], solution.total_force / 1000, atol=1e-6 * scale)
-    np.testing.assert_allclose(
-        data["loaded_support"], solution.loaded_support_force / 1000, atol=1e-6 * scale
-    )
+    at = np.searchsorted(solution.time, data["time"].astype(float) - 1e-6)
+    np.testing.assert_allclose(data["time"], solution.time[at], atol=1e-6)
+    for name, expected in (
+        ("total", solution.total_force / 1000),
+        ("loaded_support", solution.loaded_support_force / 1000),
+    ):
+        np.testing.assert_allclose(data[name], expected[at], atol=1e-6 * np.abs(expected).max())
     assert force.model.y_range.start <= shown.total_force.min()
     assert shown.total_force.max() <= force.model.y_range.end
+
+
+def test_what_is_in_view_is_sent_whole_and_of_the_rest_an_outline(picture):
+    force = ForceFigure()
+    shown = picture("booted-block-low-mass")
+    force.show(shown)
+    in_view = (shown.time >= TIME_AXIS[0]) & (shown.time <= TIME_AXIS[1])
+    sent = force.samples.data["time"]
+    assert np.count_nonzero((sent >= TIME_AXIS[0]) & (sent <= TIME_AXIS[1])) >= np.count_nonzero(in_view) - 1
+    assert sent.size < shown.time.size / 4
+    assert sent[[0, -1]] == pytest.approx(shown.time[[0, -1]], abs=1e-6)
+
+
+def test_a_move_along_time_sends_what_comes_into_view(picture):
+    force = ForceFigure()
+    shown = picture("slab-track")
+    force.show(shown)
+    force.model._trigger_event(RangesUpdate(force.model, x0=1.0, x1=1.2, y0=0, y1=1))
+    sent = force.samples.data["time"]
+    expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
+    assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
+
+
+@given(st.integers(3, 30_000), st.floats(-1, 9), st.floats(0.01, 9), st.integers(0, 10_000))
+@settings(max_examples=50, deadline=None)
+def test_an_outline_keeps_every_envelope_and_is_bounded(samples, start, width, seed):
+    time = np.arange(samples) / 4096
+    curves = [np.random.default_rng([seed, k]).normal(size=samples) for k in range(2)]
+    kept = outline(time, curves, start, start + width)
+    assert (np.diff(kept) > 0).all()
+    assert kept.size <= 2 * (2 * POINTS_BEYOND + POINTS_IN_VIEW) + 2
+    first, last = np.searchsorted(time, [start, start + width])
+    for begin, stop, points in ((0, first, POINTS_BEYOND), (first, last, POINTS_IN_VIEW)):
+        if stop - begin > points:
+            for curve in curves:
+                some = kept[(kept >= begin) & (kept < stop)]
+                assert curve[some].max() == curve[begin:stop].max()
+                assert curve[some].min() == curve[begin:stop].min()
 
 
 def test_both_forces_have_a_name_and_a_hover():

@@ -8,7 +8,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard import runner as runner_module
-from dashboard.runner import FIDELITY, STOPPED, Runner, readable, take_picture
+from dashboard.runner import AT_REST, MOVING, STOPPED, Runner, readable, take_picture
 from dashboard.state import DesignInputs, Outcome
 
 WAIT = 30
@@ -17,9 +17,9 @@ WAIT = 30
 class Session:
     """Inputs, outcome and runner of one user."""
 
-    def __init__(self, store):
+    def __init__(self, store, live_store=None):
         self.inputs, self.outcome = DesignInputs(), Outcome()
-        self.runner = Runner(self.inputs, self.outcome, store)
+        self.runner = Runner(self.inputs, self.outcome, store, live_store or store)
 
     def do(self, action, *arguments, **values):
         """Call something on an event loop, and wait for all that it set going."""
@@ -37,34 +37,61 @@ class Session:
         self.do(self.inputs.param.update, **values)
 
 
+@pytest.fixture(autouse=True)
+def _short_rest(monkeypatch):
+    monkeypatch.setattr(runner_module, "REST", 0.02)
+    monkeypatch.setattr(runner_module, "LOOK_EVERY", 0.005)
+
+
 class Gate:
     """A solver that holds back designs with the pad stiffness 500 kN/mm until they are let through."""
 
-    def __init__(self, fake_picture):
+    def __init__(self, fake_picture, fidelity):
         self._picture = fake_picture
+        self._fidelity = fidelity
         self.open = threading.Event()
         self.begun = threading.Event()
         self.gave_up = []
         self.solved = []
 
     def solve(self, key, progress, cancelled):
-        design, _ = key
-        if design.pad_stiffness == 500e6:
+        design, fidelity = key
+        if design.pad_stiffness == 500e6 and fidelity == self._fidelity:
             self.begun.set()
             while not self.open.wait(0.005):
                 progress(0.25)
                 if cancelled():
                     self.gave_up.append(design)
                     raise tig.SolveCancelled
-        self.solved.append(design)
-        return self._picture(design)
+        self.solved.append((design.pad_stiffness / 1e6, fidelity))
+        return self._picture(design, fidelity=fidelity)
 
 
 @pytest.fixture
 def gate(fake_picture):
-    gate = Gate(fake_picture)
+    """Return a gate before runs at rest."""
+    gate = Gate(fake_picture, AT_REST)
     yield gate
     gate.open.set()
+
+
+@pytest.fixture
+def live_gate(fake_picture):
+    """Return a gate before live runs."""
+    gate = Gate(fake_picture, MOVING)
+    yield gate
+    gate.open.set()
+
+
+def shown_pictures(session):
+    """Return a list to which each picture that is shown adds pad stiffness [kN/mm] and fidelity."""
+    shown = []
+
+    def note(event):
+        shown.append((event.new.design.pad_stiffness / 1e6, event.new.solution.fidelity))
+
+    session.outcome.param.watch(note, "picture")
+    return shown
 
 
 async def until(condition):
@@ -76,7 +103,7 @@ async def until(condition):
 
 def test_a_picture_holds_what_solve_returns(picture):
     design = tig.PRESETS["slab-track"]
-    solution = tig.solve(design, fidelity=FIDELITY)
+    solution = tig.solve(design, fidelity=AT_REST)
     taken = picture("slab-track")
     np.testing.assert_array_equal(taken.solution.insertion_gain, solution.insertion_gain)
     np.testing.assert_allclose(1000 * taken.total_force, solution.total_force)
@@ -93,7 +120,7 @@ def test_a_picture_leaves_the_large_record_behind(picture):
 
 def test_progress_and_cancellation_reach_the_core():
     heard = []
-    key = (tig.PRESETS["slab-track"], FIDELITY)
+    key = (tig.PRESETS["slab-track"], AT_REST)
     with pytest.raises(tig.SolveCancelled):
         take_picture(key, heard.append, lambda: bool(heard))
     assert 0 < heard[0] < 1
@@ -101,7 +128,7 @@ def test_progress_and_cancellation_reach_the_core():
 
 def test_a_kept_picture_is_there_at_once(instant_store):
     design = tig.PRESETS["booted-block-low-mass"]
-    instant_store.request((design, FIDELITY)).future.result(WAIT)
+    instant_store.request((design, AT_REST)).future.result(WAIT)
     session = Session(instant_store)
     session.runner.start()
     assert session.outcome.picture.design == design
@@ -131,62 +158,147 @@ def test_going_back_comes_from_the_cache(instant_store):
     assert session.outcome.picture.design.pad_stiffness == 200e6
 
 
-def test_while_one_solve_runs_only_the_newest_change_waits(make_store, gate):
+def test_a_change_is_followed_live_and_solved_as_in_the_paper_at_rest(instant_store):
+    session = Session(instant_store)
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+    session.change(pad_stiffness=200)
+    assert shown == [(200, MOVING), (200, AT_REST)]
+
+
+def test_while_inputs_move_nothing_but_live_runs_are_solved(make_store, gate, monkeypatch):
+    monkeypatch.setattr(runner_module, "REST", 0.3)
     session = Session(make_store(gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+
+    async def drag():
+        for stiffness in range(300, 310):
+            session.inputs.pad_stiffness = stiffness
+            await asyncio.sleep(0.02)
+        await until(lambda: session.outcome.picture.solution.fidelity == AT_REST)
+
+    asyncio.run(drag())
+    assert [fidelity for _, fidelity in shown] == [MOVING] * (len(shown) - 1) + [AT_REST]
+    stiffnesses = [stiffness for stiffness, _ in shown]
+    assert stiffnesses == sorted(stiffnesses)
+    assert shown[-2:] == [(309, MOVING), (309, AT_REST)]
+    assert [each for each in gate.solved if each[1] == AT_REST] == [(100, AT_REST), (309, AT_REST)]
+
+
+def test_while_one_live_run_lasts_only_the_newest_change_waits(make_store, live_gate):
+    session = Session(make_store(live_gate.solve))
+    session.do(session.runner.start)
 
     async def drag():
         session.inputs.pad_stiffness = 500
-        await until(gate.begun.is_set)
+        await until(live_gate.begun.is_set)
         for stiffness in range(501, 520):
             session.inputs.pad_stiffness = stiffness
             await asyncio.sleep(0)
-        gate.open.set()
-        await until(lambda: not session.outcome.busy)
+        live_gate.open.set()
+        await until(lambda: session.outcome.picture.design.pad_stiffness == 519e6)
 
     asyncio.run(drag())
-    stiffnesses = [design.pad_stiffness for design in gate.solved if design != session.inputs.preset_design]
-    assert stiffnesses == [500e6, 519e6]
-    assert session.outcome.picture.design.pad_stiffness == 519e6
+    assert [stiffness for stiffness, fidelity in live_gate.solved if fidelity == MOVING] == [500, 519]
 
 
-def test_a_short_solve_is_shown_though_newer_changes_wait(make_store, gate):
-    session = Session(make_store(gate.solve))
-    seen = []
-    session.outcome.param.watch(lambda event: seen.append(event.new.design.pad_stiffness), "picture")
+def test_a_live_run_is_shown_though_newer_changes_wait(make_store, live_gate):
+    session = Session(make_store(live_gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
 
     async def drag():
         session.inputs.pad_stiffness = 500
-        await until(gate.begun.is_set)
+        await until(live_gate.begun.is_set)
         session.inputs.pad_stiffness = 600
         await asyncio.sleep(0)
-        gate.open.set()
-        await until(lambda: not session.outcome.busy)
+        live_gate.open.set()
+        await until(lambda: (600, AT_REST) in shown)
 
     asyncio.run(drag())
-    assert seen == [500e6, 600e6]
+    assert shown == [(500, MOVING), (600, MOVING), (600, AT_REST)]
 
 
-def test_a_long_solve_gives_way_to_newer_inputs(make_store, gate, monkeypatch):
-    monkeypatch.setattr(runner_module, "LONG", 0.01)
-    monkeypatch.setattr(runner_module, "LOOK_EVERY", 0.002)
+def test_a_run_at_rest_gives_way_to_newer_inputs_at_once(make_store, gate):
     session = Session(make_store(gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+
+    async def change_of_mind():
+        session.inputs.pad_stiffness = 500
+        await until(gate.begun.is_set)
+        session.inputs.pad_stiffness = 600
+        await until(lambda: (600, AT_REST) in shown)
+        await until(lambda: gate.gave_up)
+
+    asyncio.run(change_of_mind())
+    assert shown == [(500, MOVING), (600, MOVING), (600, AT_REST)]
+
+
+def test_a_live_run_that_takes_too_long_is_left_for_the_paper_s(make_store, live_gate, monkeypatch):
+    monkeypatch.setattr(runner_module, "PATIENCE", 0.02)
+    session = Session(make_store(live_gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+    session.change(pad_stiffness=500)
+    assert shown == [(500, AT_REST)]
+    assert live_gate.gave_up
+
+
+def test_what_live_fidelity_refuses_is_left_for_the_paper_s(make_store, fake_picture):
+    def solve(key, *_):
+        if key[1] == MOVING:
+            raise tig.RunTooLargeError("too large")
+        return fake_picture(key[0])
+
+    session = Session(make_store(solve))
+    session.do(session.runner.start)
+    session.change(pad_stiffness=300)
+    assert session.outcome.picture.design.pad_stiffness == 300e6
+    assert session.outcome.problem == ""
+
+
+def test_following_waits_for_nobody_s_run_at_rest(make_store, gate):
+    """All workers busy with other users' runs, the picture still follows."""
+    store = make_store(gate.solve, workers=1)
+    live_store = make_store(gate.solve, workers=1)
+    session = Session(store, live_store)
+    session.do(session.runner.start)
+    busy = tig.PRESETS["slab-track"].replace(pad_stiffness=500e6)
+    job = store.request((busy, AT_REST))
+
+    async def follow():
+        await until(gate.begun.is_set)
+        session.inputs.pad_stiffness = 200
+        await until(lambda: session.outcome.picture.design.pad_stiffness == 200e6)
+        assert session.outcome.picture.solution.fidelity == MOVING
+        gate.open.set()
+        await until(lambda: session.outcome.picture.solution.fidelity == AT_REST)
+
+    asyncio.run(follow())
+    store.release(job)
+
+
+def test_a_long_run_shows_its_progress_and_gives_way(make_store, gate, monkeypatch):
+    monkeypatch.setattr(runner_module, "LONG", 0.01)
+    session = Session(make_store(gate.solve))
+    session.do(session.runner.start)
 
     async def change_of_mind():
         session.inputs.pad_stiffness = 500
         await until(lambda: session.outcome.progress == 0.25)
         assert session.outcome.busy
         session.inputs.pad_stiffness = 600
-        await until(lambda: not session.outcome.busy)
+        await until(lambda: not session.outcome.busy and session.outcome.progress is None)
         await until(lambda: gate.gave_up)
 
     asyncio.run(change_of_mind())
     assert session.outcome.picture.design.pad_stiffness == 600e6
-    assert session.outcome.progress is None
 
 
 def test_nobody_cancels_what_another_session_waits_for(make_store, gate, monkeypatch):
     monkeypatch.setattr(runner_module, "LONG", 0.01)
-    monkeypatch.setattr(runner_module, "LOOK_EVERY", 0.002)
     store = make_store(gate.solve)
     one, other = Session(store), Session(store)
 
@@ -205,8 +317,7 @@ def test_nobody_cancels_what_another_session_waits_for(make_store, gate, monkeyp
     assert other.outcome.picture.design.pad_stiffness == 500e6
 
 
-def test_a_long_solve_can_be_stopped(make_store, gate, monkeypatch):
-    monkeypatch.setattr(runner_module, "LOOK_EVERY", 0.002)
+def test_a_long_solve_can_be_stopped(make_store, gate):
     session = Session(make_store(gate.solve))
 
     async def stop():
@@ -221,7 +332,6 @@ def test_a_long_solve_can_be_stopped(make_store, gate, monkeypatch):
     asyncio.run(stop())
     assert session.outcome.problem == STOPPED
     assert not session.outcome.busy
-    assert session.outcome.picture.design.pad_stiffness == 300e6
     session.change(pad_stiffness=301)
     assert session.outcome.problem == ""
     assert session.outcome.picture.design.pad_stiffness == 301e6
@@ -231,7 +341,7 @@ def test_a_failure_is_told_and_leaves_the_last_good_picture(make_store, fake_pic
     def solve(key, *_):
         if key[0].pad_stiffness == 666e6:
             raise FloatingPointError("overflow in <kernel>")
-        return fake_picture(key[0])
+        return fake_picture(key[0], fidelity=key[1])
 
     session = Session(make_store(solve))
     session.change(pad_stiffness=300)
@@ -284,27 +394,27 @@ def test_a_closed_session_solves_no_more(instant_store):
 
 
 def test_waiting_for_a_worker_does_not_count_as_long(make_store, fake_picture, monkeypatch):
-    """On a busy server a solve that has not begun is not given up for newer inputs, or none would finish."""
+    """On a busy server nothing is given up, and nothing said to be long, before it has begun."""
     monkeypatch.setattr(runner_module, "LONG", 0.01)
-    monkeypatch.setattr(runner_module, "LOOK_EVERY", 0.002)
-    solved, go_on = [], threading.Event()
+    monkeypatch.setattr(runner_module, "PATIENCE", 0.01)
+    go_on = threading.Event()
 
     def solve(key, *_):
         go_on.wait(10)
-        solved.append(key[0].pad_stiffness)
-        return fake_picture(key[0])
+        return fake_picture(key[0], fidelity=key[1])
 
     store = make_store(solve, workers=1)
-    store.request((tig.PRESETS["slab-track"], runner_module.FIDELITY))
+    store.request((tig.PRESETS["slab-track"], AT_REST))
     session = Session(store)
+    session.outcome.picture = fake_picture(tig.PRESETS["slab-track"])
+    shown = shown_pictures(session)
 
-    async def drag():
-        for stiffness in (300, 400, 500):
-            session.inputs.pad_stiffness = stiffness
-            await asyncio.sleep(0.05)
+    async def wait():
+        session.inputs.pad_stiffness = 300
+        await asyncio.sleep(0.1)
+        assert session.outcome.progress is None
         go_on.set()
-        await until(lambda: not session.outcome.busy)
+        await until(lambda: (300, AT_REST) in shown)
 
-    asyncio.run(drag())
-    assert solved[:3] == [1000e6, 300e6, 500e6]
-    assert session.outcome.picture.design.pad_stiffness == 500e6
+    asyncio.run(wait())
+    assert shown == [(300, MOVING), (300, AT_REST)]
