@@ -36,6 +36,7 @@ from trackig_core.source import (
     a_weighting,
 )
 from trackig_core.specification import Specification, SpecificationError, Verdict
+from trackig_core.study import PinnedDesign, Study, StudyError, View
 from trackig_core.verification import Verification, verify
 
 __version__ = version("trackig")
@@ -57,6 +58,7 @@ __all__ = [
     "MeasurementError",
     "NaturalFrequencies",
     "PeerReceptance",
+    "PinnedDesign",
     "Rail",
     "RunTooLargeError",
     "Solution",
@@ -66,11 +68,14 @@ __all__ = [
     "Specification",
     "SpecificationError",
     "StiffnessCurve",
+    "Study",
+    "StudyError",
     "TimeHistory",
     "TrackDesign",
     "TrackLevel",
     "Verdict",
     "Verification",
+    "View",
     "a_weighting",
     "compile_kernels",
     "element_errors",
