@@ -27,7 +27,7 @@ THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
 PIN_COLOURS = (
-    "#e8202c", "#1e9e57", "#b41e96", "#69871e", "#8338ec", "#5f9090", "#7869e1", "#875a5a",
+    "#b41e96", "#1ea05a", "#8414f5", "#6b8a1e", "#649494", "#f5141e", "#7869e1", "#875a5a",
 )  # fmt: skip
 """Designs pinned beside the one at hand, by the number of their colour. Sought so that the least difference
 between any two, as normal, red-blind and green-blind eyes see them, is large; dashes help where colours
