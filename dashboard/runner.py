@@ -9,7 +9,6 @@ The one rule: the last good picture stays until a better one is there.
 """
 
 import asyncio
-import dataclasses
 import functools
 import logging
 import os
@@ -20,7 +19,7 @@ from functools import partial
 import panel as pn
 
 import trackig_core as tig
-from dashboard.state import KILONEWTON, PHYSICAL, Picture
+from dashboard.state import PHYSICAL, Picture
 from dashboard.store import SolutionStore
 
 FIDELITY = "paper"
@@ -61,15 +60,7 @@ def take_picture(key, progress, cancelled):
     design, fidelity = key
     began = time.perf_counter()
     solution = tig.solve(design, fidelity=fidelity, progress=progress, cancelled=cancelled)
-    seconds = time.perf_counter() - began
-    return Picture(
-        solution=dataclasses.replace(solution, history=None),
-        time=solution.time,
-        loaded_support_force=solution.loaded_support_force / KILONEWTON,
-        total_force=solution.total_force / KILONEWTON,
-        step=1000 * solution.history.step,
-        seconds=seconds,
-    )
+    return Picture.of(solution, time.perf_counter() - began)
 
 
 @functools.cache

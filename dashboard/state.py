@@ -5,6 +5,7 @@ picture and how the solver fares. The one rule: units are converted here and now
 nothing here knows how it is shown.
 """
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -160,22 +161,37 @@ class Picture:
     ----------
     solution : trackig_core.Solution
         The solution without its time history, which is a hundred times larger than the rest.
-    time : numpy.ndarray (samples,) [s]
-        Time since the step in contact compression.
-    loaded_support_force, total_force : numpy.ndarray (samples,) [kN]
+    time : numpy.ndarray (samples,) or None [s]
+        Time since the step in contact compression; None, as are the next three, when nothing was stepped
+        in time.
+    loaded_support_force, total_force : numpy.ndarray (samples,) or None [kN]
         Force into the ground under the wheel, and summed over all supports.
-    step : float [mm]
+    step : float or None [mm]
         Height of the step.
     seconds : float [s]
         How long the solver took.
     """
 
     solution: tig.Solution
-    time: np.ndarray
-    loaded_support_force: np.ndarray
-    total_force: np.ndarray
-    step: float
+    time: np.ndarray | None
+    loaded_support_force: np.ndarray | None
+    total_force: np.ndarray | None
+    step: float | None
     seconds: float
+
+    @classmethod
+    def of(cls, solution, seconds):
+        """Return what is shown of a solution that took some time [s]."""
+        if solution.history is None:
+            return cls(solution, None, None, None, None, seconds)
+        return cls(
+            solution=dataclasses.replace(solution, history=None),
+            time=solution.time,
+            loaded_support_force=solution.loaded_support_force / KILONEWTON,
+            total_force=solution.total_force / KILONEWTON,
+            step=1000 * solution.history.step,
+            seconds=seconds,
+        )
 
     @property
     def design(self):

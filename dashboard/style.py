@@ -26,7 +26,23 @@ PRESET_GHOST = "#808080"
 THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
-FIGURE_COLOURS = (THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST)
+PIN_COLOURS = (
+    "#b41e96", "#1ea05a", "#8414f5", "#6b8a1e", "#649494", "#f5141e", "#7869e1", "#875a5a",
+)  # fmt: skip
+"""Designs pinned beside the one at hand, by the number of their colour. Sought so that the least difference
+between any two, as normal, red-blind and green-blind eyes see them, is large; dashes help where colours
+are many."""
+
+DASHES = ((), (8, 3), (2, 2), (8, 3, 2, 3), (14, 4), (5, 2), (8, 3, 2, 3, 2, 3), (4, 6), (14, 4, 2, 4))
+"""Tells curves apart without colour: the design at hand is solid, the n-th pinned has the n-th dash."""
+
+SPECIFICATION = "#c2410c"
+"""The limit of a specification, and where it is exceeded."""
+
+FIGURE_COLOURS = (
+    *(THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST, SPECIFICATION),
+    *PIN_COLOURS,
+)
 
 APP_BAR = "#17324d"
 
@@ -69,6 +85,12 @@ def duration_text(seconds):
 def level_text(level):
     """Return a level [dB] with its sign and one decimal; a true minus, so that columns align."""
     return f"{level:+.1f} dB".replace("-", "−")
+
+
+def signed_text(level):
+    """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
+    text = f"{level:+.1f}"
+    return "0.0" if float(text) == 0 else text.replace("-", "−")
 
 
 LEAST_DIFFERENCE = 1e-6
@@ -155,3 +177,11 @@ dl {{ margin: 12px 14px 10px 14px; font-size: 14px; }}
 dt {{ font-weight: 700; text-align: right; font-variant-numeric: tabular-nums; }}
 dd {{ margin: 0; }}
 """
+
+REPORT_INK = "#1b2733"
+REPORT_FAINT = "#5b6773"
+REPORT_RULE = "#d5dbe1"
+REPORT_SHADE = "#f3f5f7"
+REPORT_GOOD = "#00704f"
+REPORT_BAD = "#b3261e"
+"""A report is printed: dark ink on white paper, whatever the theme of the page."""

@@ -8,6 +8,7 @@ The one rule: what a user may rely on is named here; the modules below may chang
 
 from importlib.metadata import version
 
+from trackig_core.band_table import BandTableError
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.catalogue import PRESETS, RAILS
 from trackig_core.convergence import element_errors, time_step_errors
@@ -26,32 +27,56 @@ from trackig_core.results import (
 )
 from trackig_core.simulate import SolveCancelled
 from trackig_core.solver import compile_kernels, solve
+from trackig_core.source import (
+    A_WEIGHTING,
+    LevelDifference,
+    SourceError,
+    SourceSpectrum,
+    TrackLevel,
+    a_weighting,
+)
+from trackig_core.specification import Specification, SpecificationError, Verdict
+from trackig_core.study import PinnedDesign, Study, StudyError, View
 from trackig_core.verification import Verification, verify
 
 __version__ = version("trackig")
 
 __all__ = [
+    "A_WEIGHTING",
     "BAND_CENTRES",
     "BAND_EDGES",
     "BAND_LABELS",
     "PRESETS",
     "RAILS",
+    "BandTableError",
     "DesignError",
     "ForceSpectrum",
     "InsertionGain",
     "Lattice",
+    "LevelDifference",
     "LossFactorCurve",
     "MeasurementError",
     "NaturalFrequencies",
     "PeerReceptance",
+    "PinnedDesign",
     "Rail",
     "RunTooLargeError",
     "Solution",
     "SolveCancelled",
+    "SourceError",
+    "SourceSpectrum",
+    "Specification",
+    "SpecificationError",
     "StiffnessCurve",
+    "Study",
+    "StudyError",
     "TimeHistory",
     "TrackDesign",
+    "TrackLevel",
+    "Verdict",
     "Verification",
+    "View",
+    "a_weighting",
     "compile_kernels",
     "element_errors",
     "insertion_gain",
