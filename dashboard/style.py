@@ -86,6 +86,12 @@ def quantity_text(value):
     return f"{value:.6g}"
 
 
+def name_text(name, longest):
+    """Return a name that somebody typed as it is shown: one line of printable characters, cut at a length."""
+    words = "".join(letter if letter.isprintable() else " " for letter in name[: longest + 1])
+    return words if len(words) <= longest else words[: longest - 1] + "…"
+
+
 GROUP_HEADING = {"fontWeight": 700, "letterSpacing": "0.02em"}
 
 HIDDEN_LABEL = {

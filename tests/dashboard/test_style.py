@@ -44,3 +44,11 @@ def test_levels_have_a_sign(level, text):
 )
 def test_quantities_read_as_typed(value, text):
     assert style.quantity_text(value) == text
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("Softer boot", "Softer boot"), ("a\x00b\nc", "a b c"), ("x" * 13, "x" * 11 + "…"), ("", "")],
+)
+def test_names_are_one_short_line(name, text):
+    assert style.name_text(name, 12) == text
