@@ -26,7 +26,26 @@ PRESET_GHOST = "#808080"
 THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
-FIGURE_COLOURS = (THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST)
+DESIGN_COLOURS = (
+    "#cc830e",
+    "#9c3e88",
+    "#21a869",
+    "#817600",
+    "#695be0",
+    "#f55e3d",
+    "#785f29",
+    "#9e5248",
+)
+"""Pinned designs: the hues of Okabe and Ito, as light and as dark as both papers allow. Those that share a
+dash, and the design at hand, differ for protanopes, deuteranopes and tritanopes too."""
+
+DESIGN_COLOUR_NAMES = ("orange", "purple", "green", "olive", "violet", "vermilion", "brown", "russet")
+"""What the colours of pinned designs are called."""
+
+DESIGN_DASHES = ([], [9, 4], [2, 3], [10, 3, 2, 3]) * 2
+"""Dash of each of them: the second cue."""
+
+FIGURE_COLOURS = (THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST, *DESIGN_COLOURS)
 
 APP_BAR = "#17324d"
 
