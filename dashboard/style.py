@@ -42,7 +42,7 @@ dash, and the design at hand, differ for protanopes, deuteranopes and tritanopes
 DESIGN_COLOUR_NAMES = ("orange", "purple", "green", "olive", "violet", "vermilion", "brown", "russet")
 """What the colours of pinned designs are called."""
 
-DESIGN_DASHES = ([], [9, 4], [2, 3], [10, 3, 2, 3]) * 2
+DESIGN_DASHES = ([], [9, 4], [3, 3], [10, 3, 2, 3]) * 2
 """Dash of each of them: the second cue."""
 
 FIGURE_COLOURS = (THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST, *DESIGN_COLOURS)
