@@ -39,9 +39,28 @@ DASHES = ((), (8, 3), (2, 2), (8, 3, 2, 3), (14, 4), (5, 2), (8, 3, 2, 3, 2, 3),
 SPECIFICATION = "#c2410c"
 """The limit of a specification, and where it is exceeded."""
 
+DESIGN_COLOURS = (
+    "#cc830e",
+    "#9c3e88",
+    "#21a869",
+    "#817600",
+    "#695be0",
+    "#f55e3d",
+    "#785f29",
+    "#9e5248",
+)
+"""Pinned designs: the hues of Okabe and Ito, as light and as dark as both papers allow. Those that share a
+dash, and the design at hand, differ for protanopes, deuteranopes and tritanopes too."""
+
+DESIGN_COLOUR_NAMES = ("orange", "purple", "green", "olive", "violet", "vermilion", "brown", "russet")
+"""What the colours of pinned designs are called."""
+
+DESIGN_DASHES = ([], [9, 4], [3, 3], [10, 3, 2, 3]) * 2
+"""Dash of each of them: the second cue."""
+
 FIGURE_COLOURS = (
     *(THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST, SPECIFICATION),
-    *PIN_COLOURS,
+    *DESIGN_COLOURS,
 )
 
 APP_BAR = "#17324d"
@@ -106,6 +125,12 @@ def difference_text(difference):
 def quantity_text(value):
     """Return an input's value as it is typed: up to six figures, no trailing zeros."""
     return f"{value:.6g}"
+
+
+def name_text(name, longest):
+    """Return a name that somebody typed as it is shown: one line of printable characters, cut at a length."""
+    words = "".join(letter if letter.isprintable() else " " for letter in name[: longest + 1])
+    return words if len(words) <= longest else words[: longest - 1] + "…"
 
 
 GROUP_HEADING = {"fontWeight": 700, "letterSpacing": "0.02em"}

@@ -5,7 +5,17 @@ import dataclasses
 import pytest
 
 import trackig_core as tig
-from dashboard.state import NUMBERS, PRESET_LABELS, DesignInputs, to_display, to_si
+from dashboard.state import (
+    INPUTS,
+    NUMBERS,
+    PHYSICAL,
+    PRESET_LABELS,
+    DesignInputs,
+    design_of,
+    preset_values,
+    to_display,
+    to_si,
+)
 
 
 @pytest.mark.parametrize("preset", tig.PRESETS)
@@ -116,6 +126,54 @@ def test_a_preset_arrives_as_one_change():
     inputs.param.watch(lambda *events: batches.append({event.name for event in events}), list(NUMBERS))
     inputs.preset = "booted-block-high-mass"
     assert batches == [{"pad_stiffness", "block_mass", "boot_stiffness"}]
+
+
+@pytest.mark.parametrize("preset", tig.PRESETS)
+def test_values_of_a_preset_are_those_of_a_fresh_page_that_chose_it(preset):
+    inputs = DesignInputs()
+    inputs.preset = preset
+    assert preset_values(preset) == inputs.to_values()
+    assert design_of(preset_values(preset)) == tig.PRESETS[preset]
+
+
+TUNED = {"two_stage": False, "rail": "49E1", "boot_stiffness": 12.5, "fastener_spacing": 0.65}
+
+
+def test_values_taken_back_give_the_same_design_as_one_change():
+    inputs = DesignInputs(preset="slab-track", **TUNED)
+    values = inputs.to_values()
+    other = DesignInputs()
+    batches = []
+    other.param.watch(lambda *events: batches.append({event.name for event in events}), list(INPUTS))
+    other.take(values)
+    assert other.to_values() == values
+    assert other.to_design() == inputs.to_design()
+    assert other.modified
+    assert batches == [{"preset", *TUNED}]
+
+
+def test_taking_a_preset_as_published_is_no_modification():
+    inputs = DesignInputs()
+    inputs.block_mass = 77
+    inputs.take(preset_values("booted-sleeper"))
+    assert not inputs.modified
+    inputs.preset = "booted-block-low-mass"
+    assert inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
+
+
+def test_values_carry_no_float_dust():
+    inputs = DesignInputs()
+    inputs.fastener_spacing = 0.1 + 0.2
+    assert inputs.to_values()["fastener_spacing"] == 0.3
+
+
+def test_values_out_of_bounds_change_nothing():
+    inputs = DesignInputs()
+    before = inputs.to_values()
+    with pytest.raises(ValueError, match="block_mass"):
+        inputs.take({**before, "pad_stiffness": 200, "block_mass": 9999})
+    assert inputs.to_values() == before
+    assert set(before) == {"preset", *PHYSICAL}
 
 
 def test_labels_carry_units():
