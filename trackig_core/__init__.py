@@ -15,6 +15,15 @@ from trackig_core.design import DesignError, Rail, TrackDesign
 from trackig_core.gain import insertion_gain
 from trackig_core.grid import RunTooLargeError
 from trackig_core.harmonic import Lattice, receptance, track_decay_rate
+from trackig_core.lumped import (
+    LumpedComparison,
+    LumpedFrequencies,
+    compare_with_beam,
+    effective_supports,
+    lumped_frequencies,
+    lumped_insertion_gain,
+    lumped_spectrum,
+)
 from trackig_core.measured import LossFactorCurve, MeasurementError, StiffnessCurve
 from trackig_core.peer import PeerReceptance, peer_receptances
 from trackig_core.results import (
@@ -41,6 +50,8 @@ __all__ = [
     "InsertionGain",
     "Lattice",
     "LossFactorCurve",
+    "LumpedComparison",
+    "LumpedFrequencies",
     "MeasurementError",
     "NaturalFrequencies",
     "PeerReceptance",
@@ -52,9 +63,14 @@ __all__ = [
     "TimeHistory",
     "TrackDesign",
     "Verification",
+    "compare_with_beam",
     "compile_kernels",
+    "effective_supports",
     "element_errors",
     "insertion_gain",
+    "lumped_frequencies",
+    "lumped_insertion_gain",
+    "lumped_spectrum",
     "peer_receptances",
     "receptance",
     "solve",

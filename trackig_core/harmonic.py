@@ -360,9 +360,6 @@ def exact_spectrum(design, frequency, step, lattice=INFINITE):
 def resolved_spectrum(design, frequency, step, lattice=INFINITE):
     """Return an exact spectrum on a frequency axis that is refined until it shows every peak.
 
-    Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
-    by no more than :data:`STRAIGHTNESS`.
-
     Parameters
     ----------
     design : TrackDesign
@@ -379,11 +376,32 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
     ForceSpectrum
         Energy at the given and the added frequencies.
     """
-    known = exact_spectrum(design, frequency, step, lattice)
+    return refined_spectrum(lambda between: exact_spectrum(design, between, step, lattice), frequency)
+
+
+def refined_spectrum(spectrum_at, frequency):
+    """Return any model's spectrum on a frequency axis that is refined until it shows every peak.
+
+    Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
+    by no more than :data:`STRAIGHTNESS`.
+
+    Parameters
+    ----------
+    spectrum_at : callable
+        ``spectrum_at(frequency)`` returns the ForceSpectrum at an array of frequencies [Hz].
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies to begin with [Hz], ascending and greater than zero; all are kept.
+
+    Returns
+    -------
+    ForceSpectrum
+        Energy at the given and the added frequencies.
+    """
+    known = spectrum_at(frequency)
     rows = np.array([known.frequency, known.energy, known.coherent_energy])
     left, right = rows[:, :-1], rows[:, 1:]
     for _ in range(MOST_HALVINGS):
-        between = exact_spectrum(design, (left[0] + right[0]) / 2, step, lattice)
+        between = spectrum_at((left[0] + right[0]) / 2)
         middle = np.array([between.frequency, between.energy, between.coherent_energy])
         rows = np.concatenate([rows, middle], axis=1)
         ratio = middle[1:] ** 2 / (left[1:] * right[1:])
@@ -395,7 +413,7 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
         left, middle, right = left[:, bent], middle[:, bent], right[:, bent]
         left, right = np.concatenate([left, middle], axis=1), np.concatenate([middle, right], axis=1)
     rows = rows[:, np.argsort(rows[0])]
-    return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=step)
+    return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=known.step)
 
 
 def refuse_if_unbounded(design):
@@ -425,6 +443,25 @@ def _grounded_loss(design):
     return field, getattr(design, field)
 
 
+def band_frequencies(loaded_track):
+    """Return frequencies from which a spectrum over all bands may be refined.
+
+    Parameters
+    ----------
+    loaded_track : float
+        Loaded-track frequency, at a tenth of which the line is anchored [Hz].
+
+    Returns
+    -------
+    numpy.ndarray (frequencies,)
+        Frequencies [Hz], ascending, among them every band edge and the anchor if it lies below the bands.
+    """
+    anchor = LINE_FRACTION * loaded_track
+    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
+    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
+    return np.concatenate([below, between])
+
+
 def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
     """Return the exact spectrum over all one-third-octave bands, and down to where the line is anchored.
 
@@ -449,10 +486,7 @@ def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
     DesignError
         If the spectrum cannot be told from rounding, as with next to no loss.
     """
-    anchor = LINE_FRACTION * loaded_track
-    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
-    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
-    spectrum = resolved_spectrum(design, np.concatenate([below, between]), step, lattice)
+    spectrum = resolved_spectrum(design, band_frequencies(loaded_track), step, lattice)
     if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
         field, value = _grounded_loss(design)
         raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")
