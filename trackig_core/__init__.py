@@ -33,6 +33,7 @@ from trackig_core.results import (
     Solution,
     TimeHistory,
 )
+from trackig_core.shapes import SteadyShape, steady_shape
 from trackig_core.simulate import SolveCancelled
 from trackig_core.solver import compile_kernels, solve
 from trackig_core.verification import Verification, verify
@@ -59,6 +60,7 @@ __all__ = [
     "RunTooLargeError",
     "Solution",
     "SolveCancelled",
+    "SteadyShape",
     "StiffnessCurve",
     "TimeHistory",
     "TrackDesign",
@@ -74,6 +76,7 @@ __all__ = [
     "peer_receptances",
     "receptance",
     "solve",
+    "steady_shape",
     "time_step_errors",
     "track_decay_rate",
     "verify",

@@ -73,6 +73,23 @@ class Lattice:
         if self.memory_order not in (1, 2):
             raise ValueError(f"memory_order = {self.memory_order!r}: give 1 or 2")
 
+    def frequency_squared(self, frequency):
+        """Return the square of the angular frequency as the time stepping sees it.
+
+        Parameters
+        ----------
+        frequency : numpy.ndarray (frequencies,)
+            Frequencies [Hz].
+
+        Returns
+        -------
+        numpy.ndarray (frequencies,)
+            w^2 in continuous time, else (2/dt sin(w dt/2))^2 [1/s2].
+        """
+        if self.time_step is None:
+            return (2 * np.pi * frequency) ** 2
+        return (2 / self.time_step * np.sin(np.pi * frequency * self.time_step)) ** 2
+
 
 INFINITE = Lattice()
 """The infinite track in continuous time, three elements a bay."""
@@ -211,10 +228,7 @@ def waves(design, frequency, lattice=INFINITE):
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
     if not (frequency > 0).all():
         raise ValueError("frequencies must be greater than 0 Hz")
-    if lattice.time_step is None:
-        squared = (2 * np.pi * frequency) ** 2
-    else:
-        squared = (2 / lattice.time_step * np.sin(np.pi * frequency * lattice.time_step)) ** 2
+    squared = lattice.frequency_squared(frequency)
     pad_law, boot_law = laws(design)
     pad = dynamic_stiffness(pad_law, frequency, lattice)
     support, transfer = pad, pad
