@@ -8,9 +8,11 @@ The one rule: what a user may rely on is named here; the modules below may chang
 
 from importlib.metadata import version
 
+from trackig_core.asymptotes import Asymptote, MeasuredSlope, gain_asymptotes, measured_slopes
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.catalogue import PRESETS, RAILS
 from trackig_core.convergence import element_errors, time_step_errors
+from trackig_core.damping import DampingCurve, damping_curves, gain_by_loss_factor, with_loss_factor
 from trackig_core.design import DesignError, Rail, TrackDesign
 from trackig_core.gain import insertion_gain
 from trackig_core.grid import RunTooLargeError
@@ -36,6 +38,7 @@ from trackig_core.results import (
 from trackig_core.shapes import SteadyShape, steady_shape
 from trackig_core.simulate import SolveCancelled
 from trackig_core.solver import compile_kernels, solve
+from trackig_core.sweep import Departure, FrequencySweep, departure, frequency_sweep
 from trackig_core.verification import Verification, verify
 
 __version__ = version("trackig")
@@ -46,13 +49,18 @@ __all__ = [
     "BAND_LABELS",
     "PRESETS",
     "RAILS",
+    "Asymptote",
+    "DampingCurve",
+    "Departure",
     "DesignError",
     "ForceSpectrum",
+    "FrequencySweep",
     "InsertionGain",
     "Lattice",
     "LossFactorCurve",
     "LumpedComparison",
     "LumpedFrequencies",
+    "MeasuredSlope",
     "MeasurementError",
     "NaturalFrequencies",
     "PeerReceptance",
@@ -67,12 +75,18 @@ __all__ = [
     "Verification",
     "compare_with_beam",
     "compile_kernels",
+    "damping_curves",
+    "departure",
     "effective_supports",
     "element_errors",
+    "frequency_sweep",
+    "gain_asymptotes",
+    "gain_by_loss_factor",
     "insertion_gain",
     "lumped_frequencies",
     "lumped_insertion_gain",
     "lumped_spectrum",
+    "measured_slopes",
     "peer_receptances",
     "receptance",
     "solve",
@@ -80,4 +94,5 @@ __all__ = [
     "time_step_errors",
     "track_decay_rate",
     "verify",
+    "with_loss_factor",
 ]

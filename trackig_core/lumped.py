@@ -102,6 +102,22 @@ def effective_supports(design):
     return max(1.0, _spread(design))
 
 
+def energy_share(design):
+    """Return the sum of the supports' squared forces over their squared sum, the load shared out by phi.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    float
+        L (integral of phi^2) / (integral of phi)^2 = 3 / (4 n), but one at most [-].
+    """
+    return min(1.0, 0.75 / _spread(design))
+
+
 def _spread(design):
     """Return 2 / (beta L), from the stiffnesses at 50 Hz [-]."""
     support = 1 / sum(1 / law.stiffness(REFERENCE_FREQUENCY) for law in laws(design) if law)
@@ -154,9 +170,6 @@ def _upper(design, supports, pad):
 def lumped_spectrum(design, frequency, step=DEFAULT_STEP):
     """Return the energy spectrum of the force that the chain passes into the ground after a step.
 
-    Energy summed over the supports takes the load as shared out by phi: of a total force F, the supports'
-    squares sum to F^2 (integral of phi^2) / (integral of phi)^2 L = 3 F^2 / (4 n).
-
     Parameters
     ----------
     design : TrackDesign
@@ -185,7 +198,7 @@ def lumped_spectrum(design, frequency, step=DEFAULT_STEP):
     coherent = np.abs(contact * passed * step) ** 2 / squared
     return ForceSpectrum(
         frequency=frequency,
-        energy=coherent * min(1.0, 0.75 / _spread(design)),
+        energy=coherent * energy_share(design),
         coherent_energy=coherent,
         step=step,
     )

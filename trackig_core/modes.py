@@ -53,14 +53,30 @@ def natural_frequencies(design):
         loaded = loaded_track(design)
         return NaturalFrequencies(loaded, None, loaded, None, cut_on(design))
     rigid_blocks = design.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
-    pad, boot = laws(design)
+    _, boot = laws(design)
     return NaturalFrequencies(
         loaded_track=loaded_track(design),
-        coupled_block=_oscillator(design.block_mass, pad, boot),
+        coupled_block=coupled_block(design),
         wheel_on_rigid_blocks=loaded_track(rigid_blocks),
         block_on_boot=_oscillator(design.block_mass, boot),
         cut_on=cut_on(design),
     )
+
+
+def coupled_block(design):
+    """Return the frequency of the block between pad and boot, the rail held.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    float or None
+        Frequency [Hz]; None when single-stage.
+    """
+    return _oscillator(design.block_mass, *laws(design)) if design.two_stage else None
 
 
 def _oscillator(mass, *laws):
