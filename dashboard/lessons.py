@@ -220,6 +220,8 @@ def read_lesson(file):
     LessonError
         If it cannot be read or shown; names file and line.
     """
+    if not file.is_file():  # a pipe would never end
+        raise LessonError(file.name, None, "no file: only files are read")
     try:
         with file.open("rb") as opened:
             raw = opened.read(LARGEST_FILE + 1)
@@ -297,22 +299,21 @@ def reveal(lesson):
             problems.append(LessonError(lesson.file, None, str(error)))
             return "?"
 
-    def true(claim):
+    def judged(claim):
         try:
-            return read_claim(claim)(before, after)
+            return bool(read_claim(claim)(before, after))
         except QuantityError as error:
             problems.append(LessonError(lesson.file, None, str(error)))
-            return False
+            return None
 
     texts = [_FIGURE.sub(fill, text) for text in (lesson.introduction, lesson.reveal)]
-    right = tuple(true(choice.when) for choice in lesson.choices)
+    right = tuple(judged(choice.when) is True for choice in lesson.choices)
     if sum(right) != 1:
         problem = f"the solver finds {sum(right)} choices true: mend their claims so that exactly one is"
         problems.append(LessonError(lesson.file, None, problem))
+    false = [claim for claim in lesson.claims if judged(claim) is False]
     problems += [
-        LessonError(lesson.file, None, f"the solver finds this claim false: '{claim}'")
-        for claim in lesson.claims
-        if not true(claim)
+        LessonError(lesson.file, None, f"the solver finds this claim false: '{claim}'") for claim in false
     ]
     return Revealed(*texts, right, tuple(problems))
 

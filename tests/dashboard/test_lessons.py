@@ -173,7 +173,7 @@ def test_a_figure_that_a_track_lacks_is_a_question_mark_and_told():
     )
     found = reveal(parse_lesson(single, "single.md"))
     assert found.reveal == "It ?."
-    assert any("single-stage" in str(problem) for problem in found.problems)
+    assert sum("single-stage" in str(problem) for problem in found.problems) == 1
 
 
 def test_a_folder_gives_its_good_lessons_and_a_message_for_each_broken_one(tmp_path):
