@@ -268,6 +268,24 @@ def free_colour(pinned):
     return next(colour for colour in range(MOST) if colour not in taken)
 
 
+def own_colours(wanted):
+    """Return colours that tell designs apart, whatever colours they want.
+
+    Parameters
+    ----------
+    wanted : iterable of int
+        Colour of each of up to eight designs, such as those of a file; several may want one.
+
+    Returns
+    -------
+    tuple of int
+        The first that wants a colour has it; the others get those that nobody wants.
+    """
+    wanted = list(wanted)
+    free = (colour for colour in range(MOST) if colour not in wanted)
+    return tuple(next(free) if colour in wanted[:count] else colour for count, colour in enumerate(wanted))
+
+
 def free_name(name, pinned):
     """Return a name that none of some pins has: the given one, or with a number."""
     taken = {pin.name for pin in pinned}

@@ -21,7 +21,9 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 import trackig_core as tig
 from dashboard import style
+from dashboard.pins import own_colours
 from dashboard.state import NEWTON_PER_METRE, Picture, to_display
+from trackig_core.study import THIS_DESIGN
 
 PLOT_WIDTH = 7.3
 """Width of a plot [inch]: that of the text on A4."""
@@ -138,10 +140,12 @@ def html_report(study, pictures, *, date, version):
     ValueError
         If there is no solution of any design that is shown.
     """
-    lines = _lines(study, pictures)
+    every = _lines(study, pictures)
+    shown = (True, *(each.shown for each in study.pinned))
+    lines = [line for line, is_shown in zip(every, shown, strict=True) if line is not None and is_shown]
     if not lines:
         raise ValueError("there is no solution of any design to report: solve one first")
-    base = _line(study, study.base, 0, pictures) or lines[0]
+    base = every[0 if study.view.base is None else 1 + study.view.base] or lines[0]
     return _TEMPLATES.get_template("report.html").render(
         study=study,
         date=f"{date.day} {date:%B %Y}",
@@ -168,13 +172,17 @@ def html_report(study, pictures, *, date, version):
 
 
 def _lines(study, pictures):
-    lines = (_line(study, each, number, pictures) for number, each in enumerate(study.shown))
-    return [line for line in lines if line is not None]
+    """Return the design at hand and every pinned one, as :func:`_line` does."""
+    at_hand = _line(study, THIS_DESIGN, study.design, (style.THIS_DESIGN, ()), pictures)
+    colours = own_colours(each.colour for each in study.pinned)
+    looks = ((style.DESIGN_COLOURS[colour], style.DESIGN_DASHES[colour]) for colour in colours)
+    pinned = zip(study.pinned, looks, strict=True)
+    return [at_hand, *(_line(study, each.name, each.design, look, pictures) for each, look in pinned)]
 
 
-def _line(study, pinned, number, pictures):
-    """Return a design as it is shown, or None if it has not been solved."""
-    picture = pictures.get(pinned.design)
+def _line(study, name, design, look, pictures):
+    """Return a design with its colour and dash, or None if it has not been solved."""
+    picture = pictures.get(design)
     if picture is None:
         return None
     solution, view = picture.solution, study.view
@@ -186,9 +194,9 @@ def _line(study, pinned, number, pictures):
         summation=view.summation,
     ).levels
     return Line(
-        name=pinned.name,
-        colour=style.PIN_COLOURS[pinned.colour] if pinned in study.pinned else style.THIS_DESIGN,
-        dash=style.DASHES[number],
+        name=name,
+        colour=look[0],
+        dash=look[1],
         picture=picture,
         levels=levels,
         verdict=study.specification.check(levels) if study.specification else None,

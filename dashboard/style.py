@@ -26,16 +26,6 @@ PRESET_GHOST = "#808080"
 THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
-PIN_COLOURS = (
-    "#b41e96", "#1ea05a", "#8414f5", "#6b8a1e", "#649494", "#f5141e", "#7869e1", "#875a5a",
-)  # fmt: skip
-"""Designs pinned beside the one at hand, by the number of their colour. Sought so that the least difference
-between any two, as normal, red-blind and green-blind eyes see them, is large; dashes help where colours
-are many."""
-
-DASHES = ((), (8, 3), (2, 2), (8, 3, 2, 3), (14, 4), (5, 2), (8, 3, 2, 3, 2, 3), (4, 6), (14, 4, 2, 4))
-"""Tells curves apart without colour: the design at hand is solid, the n-th pinned has the n-th dash."""
-
 SPECIFICATION = "#c2410c"
 """The limit of a specification, and where it is exceeded."""
 
@@ -55,7 +45,7 @@ dash, and the design at hand, differ for protanopes, deuteranopes and tritanopes
 DESIGN_COLOUR_NAMES = ("orange", "purple", "green", "olive", "violet", "vermilion", "brown", "russet")
 """What the colours of pinned designs are called."""
 
-DESIGN_DASHES = ([], [9, 4], [3, 3], [10, 3, 2, 3]) * 2
+DESIGN_DASHES = ((), (9, 4), (3, 3), (10, 3, 2, 3)) * 2
 """Dash of each of them: the second cue."""
 
 FIGURE_COLOURS = (

@@ -4,7 +4,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard import style
-from dashboard.pins import LONGEST_NAME, MOST, Pin, PinError, Pins
+from dashboard.pins import LONGEST_NAME, MOST, Pin, PinError, Pins, own_colours
 from dashboard.state import DesignInputs, preset_values
 
 VALUES = preset_values("booted-sleeper")
@@ -180,3 +180,11 @@ def test_pins_from_elsewhere_must_differ():
 def test_values_that_no_slider_shows_are_no_pin():
     with pytest.raises(ValueError, match="block_mass"):
         Pins().add({**VALUES, "block_mass": 1e9})
+
+
+@pytest.mark.parametrize(
+    ("wanted", "given"),
+    [((), ()), ((4, 1), (4, 1)), ((0, 0, 1), (0, 2, 1)), ((7,) * MOST, (7, *range(MOST - 1)))],
+)
+def test_designs_that_want_one_colour_get_their_own(wanted, given):
+    assert own_colours(wanted) == given

@@ -1,5 +1,6 @@
 """The report: everything is in it, nothing in it runs, and it asks for nothing."""
 
+import dataclasses
 import datetime
 import html
 import re
@@ -230,3 +231,11 @@ def test_failing_bands_are_marked_in_the_plot(pictures):
     met = marks(failing)
     tight = [(f, level - 3 if f in (63.0, 125.0) else level) for f, level in failing.points]
     assert (met, marks(tig.Specification(tight))) == (0, 2)
+
+
+def test_designs_look_as_their_colours_say_and_no_two_alike(study, pictures):
+    pinned = [dataclasses.replace(each, colour=4, shown=True) for each in study.pinned]
+    report = html_report(dataclasses.replace(study, pinned=pinned), pictures, date=DAY, version="9.8.7")
+    looks = re.findall(r'stroke="(#\w+)" stroke-width="3" stroke-dasharray="([\d ]*)"', report)[:4]
+    own = [(style.DESIGN_COLOURS[n], " ".join(map(str, style.DESIGN_DASHES[n]))) for n in (4, 0, 1)]
+    assert looks == [(style.THIS_DESIGN, ""), *own]

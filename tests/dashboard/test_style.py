@@ -70,7 +70,7 @@ def test_the_design_at_hand_differs_from_every_pinned_one(reader):
 
 @pytest.mark.parametrize("reader", READERS)
 def test_pinned_designs_differ_by_colour_or_by_colour_and_dash(reader):
-    designs = list(zip(style.DESIGN_COLOURS, map(tuple, style.DESIGN_DASHES), strict=True))
+    designs = list(zip(style.DESIGN_COLOURS, style.DESIGN_DASHES, strict=True))
     for (one, dash), (other, other_dash) in combinations(designs, 2):
         assert difference(one, other, reader) >= (CLEAR if dash == other_dash else TOLERABLE)
 
