@@ -13,9 +13,10 @@ import re
 from dataclasses import dataclass
 from urllib.parse import urlencode
 
-from dashboard.pins import LONGEST_NAME, MOST, Pin, free_colour, free_name
+from dashboard.pins import MOST, Pin, free_colour, free_name
 from dashboard.state import INPUTS, NUMBERS, DesignInputs, Presentation, preset_values, six_figures
 from dashboard.style import DESIGN_COLOURS, name_text, quantity_text
+from trackig_core.names import LONGEST_NAME
 
 VERSION = "1"
 """Version of the format; a link of another version is read as far as its keys are known."""

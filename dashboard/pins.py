@@ -13,12 +13,10 @@ import param
 import trackig_core as tig
 from dashboard import style
 from dashboard.state import PRESET_LABELS, check_values, design_of, preset_values
+from trackig_core.names import LONGEST_NAME, allowed, brief, is_name
 
 MOST = len(style.DESIGN_COLOURS)
 """Designs that can be pinned at a time: one for each colour."""
-
-LONGEST_NAME = 40
-"""Characters that a pin's name may have."""
 
 
 class PinError(ValueError):
@@ -34,7 +32,7 @@ class Pin:
     key : int
         Tells the pin from all others of its session, renamed or recoloured as it may be.
     name : str
-        What it is called: 1 to 40 printable characters, no space at either end.
+        What it is called; :func:`trackig_core.names.is_name` says what may be a name.
     colour : int
         Index of its colour and its dash in :data:`dashboard.style.DESIGN_COLOURS`.
     values : mapping
@@ -58,10 +56,8 @@ class Pin:
 
     def __post_init__(self):
         """Check every value once, and keep the values from being changed."""
-        sound = self.name.isprintable() and self.name == self.name.strip()
-        if not (sound and 1 <= len(self.name) <= LONGEST_NAME):
-            shown = style.name_text(self.name, LONGEST_NAME)
-            raise PinError(f"“{shown}” is no name: give 1 to {LONGEST_NAME} printable characters.")
+        if not is_name(self.name):
+            raise PinError(f"{brief(self.name)} is no name: give {allowed()}.")
         if self.colour not in range(MOST):
             raise PinError(f"There is no colour {self.colour}: give 0 to {MOST - 1}.")
         check_values(self.values)

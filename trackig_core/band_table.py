@@ -19,7 +19,7 @@ from typing import ClassVar
 import numpy as np
 
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
-from trackig_core.names import ALLOWED, brief, is_name
+from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 
 FREQUENCY_COLUMN = "frequency_hz"
 """Header of the first column."""
@@ -115,8 +115,8 @@ class BandTable:
     def __post_init__(self):
         """Check every row once; frequencies become nominal, rows ascend."""
         error = self.quantity.error
-        if not is_name(self.name):
-            raise error(f"name = {brief(self.name)}: give {ALLOWED}")
+        if not is_name(self.name, LONGEST_TITLE):
+            raise error(f"name = {brief(self.name)}: give {allowed(LONGEST_TITLE)}")
         object.__setattr__(self, "points", _checked(_rows(self.points, self.quantity), self.quantity, "row"))
 
     @classmethod

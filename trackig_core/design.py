@@ -15,13 +15,10 @@ import numbers
 from dataclasses import dataclass
 
 from trackig_core.measured import LossFactorCurve, StiffnessCurve
-from trackig_core.names import brief, is_name
+from trackig_core.names import allowed, brief, is_name
 
 REFERENCE_FREQUENCY = 50.0
 """Frequency at which a pad's or boot's dynamic stiffness is stated [Hz]; the paper, section on damping."""
-
-LONGEST_NAME = 40
-"""Characters that the name of a rail may have [-]."""
 
 DEFAULT_STEP = 1e-4
 """Step of roughness that squeezes the contact spring [m]; insertion gain does not depend on it."""
@@ -122,8 +119,8 @@ class Rail:
 
     def __post_init__(self):
         """Check every value once."""
-        if not is_name(self.name, LONGEST_NAME):
-            raise DesignError("name", self.name, f"a name of 1 to {LONGEST_NAME} printable characters")
+        if not is_name(self.name):
+            raise DesignError("name", self.name, allowed())
         for field in ("mass_per_metre", "bending_stiffness"):
             object.__setattr__(self, field, check_number(field, getattr(self, field)))
 

@@ -4,15 +4,20 @@ The one rule: a name that was accepted can be shown, printed and written to a fi
 no control characters, no line breaks and nothing that reorders the text around it.
 """
 
-LONGEST = 60
-"""Characters that a name may have [-]."""
+LONGEST_NAME = 40
+"""Characters that the name of a rail or a design may have [-]."""
 
-ALLOWED = f"a name of 1 to {LONGEST} printable characters"
-"""What to give for a name."""
+LONGEST_TITLE = 60
+"""Characters that the name of a specification, a source or a study may have [-]."""
 
 
-def is_name(value, longest=LONGEST):
-    """Return whether a value is text of 1 to ``longest`` printable characters, not all of them spaces.
+def allowed(longest=LONGEST_NAME):
+    """Return what to give for a name (str)."""
+    return f"a name of 1 to {longest} printable characters, without a space at either end"
+
+
+def is_name(value, longest=LONGEST_NAME):
+    """Return whether a value is text of 1 to ``longest`` printable characters, no space at either end.
 
     Parameters
     ----------
@@ -26,7 +31,9 @@ def is_name(value, longest=LONGEST):
     bool
         Whether it is a name.
     """
-    return isinstance(value, str) and len(value) <= longest and value.isprintable() and bool(value.strip())
+    if not isinstance(value, str):
+        return False
+    return 1 <= len(value) <= longest and value.isprintable() and value == value.strip()
 
 
 def brief(value, longest=60):

@@ -20,7 +20,7 @@ from trackig_core.band_table import BandTableError
 from trackig_core.design import DesignError, Rail, TrackDesign
 from trackig_core.gain import REFERENCES, SUMMATIONS
 from trackig_core.measured import LossFactorCurve, MeasurementError, StiffnessCurve
-from trackig_core.names import ALLOWED, brief, is_name
+from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 from trackig_core.source import SourceSpectrum
 from trackig_core.specification import Specification
 
@@ -164,7 +164,7 @@ class PinnedDesign:
     def __post_init__(self):
         """Check every value once."""
         if not is_name(self.name):
-            raise StudyError(f"{brief(self.name)}: give {ALLOWED}", "name")
+            raise StudyError(f"{brief(self.name)}: give {allowed()}", "name")
         if not isinstance(self.design, TrackDesign):
             raise StudyError(f"{brief(self.design)}: give a TrackDesign", "design")
         _check_count(self.colour, COLOURS, "colour")
@@ -206,8 +206,8 @@ class Study:
 
     def __post_init__(self):
         """Check every value once."""
-        if not is_name(self.name):
-            raise StudyError(f"{brief(self.name)}: give {ALLOWED}", "name")
+        if not is_name(self.name, LONGEST_TITLE):
+            raise StudyError(f"{brief(self.name)}: give {allowed(LONGEST_TITLE)}", "name")
         object.__setattr__(self, "pinned", tuple(self.pinned))
         for name, kind in (("design", TrackDesign), ("view", View)):
             _check_kind(getattr(self, name), kind, name)

@@ -65,6 +65,7 @@ def test_a_rail_is_a_rail(rail):
         ((60, 60.0, 6e6), "name"),
         (("60\n", 60.0, 6e6), "name"),
         ((" ", 60.0, 6e6), "name"),
+        (("60 ", 60.0, 6e6), "name"),
         (("60", 0.0, 6e6), "mass_per_metre"),
         (("60", 60.0, 6.4), "bending_stiffness"),
     ],

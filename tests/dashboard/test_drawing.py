@@ -12,6 +12,7 @@ import trackig_core as tig
 from dashboard import drawing, style
 from dashboard.state import DesignInputs, to_si
 from trackig_core.design import RANGES
+from trackig_core.names import LONGEST_NAME, is_name
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -38,9 +39,8 @@ def any_design(two_stage):
     """Return every design of plain numbers that the core allows."""
     second = ("block_mass", "boot_stiffness", "boot_loss_factor") if two_stage else ()
     first = ("pad_stiffness", "pad_loss_factor", "fastener_spacing", "wheel_mass", "contact_stiffness")
-    rail = st.builds(
-        tig.Rail, st.text(min_size=1, max_size=40), numbers("mass_per_metre"), numbers("bending_stiffness")
-    )
+    names = st.text(min_size=1, max_size=LONGEST_NAME).filter(is_name)
+    rail = st.builds(tig.Rail, names, numbers("mass_per_metre"), numbers("bending_stiffness"))
     return st.builds(tig.TrackDesign, rail=rail, **{name: numbers(name) for name in (*first, *second)})
 
 

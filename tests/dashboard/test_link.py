@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import trackig_core as tig
 from dashboard.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
-from dashboard.pins import LONGEST_NAME, MOST, Pin, Pins
+from dashboard.pins import MOST, Pin, Pins
 from dashboard.state import (
     INPUTS,
     NUMBERS,
@@ -19,6 +19,7 @@ from dashboard.state import (
     preset_values,
     six_figures,
 )
+from trackig_core.names import LONGEST_NAME
 
 OPENING = DesignInputs().to_values()
 

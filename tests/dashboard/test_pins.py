@@ -4,8 +4,9 @@ import pytest
 
 import trackig_core as tig
 from dashboard import style
-from dashboard.pins import LONGEST_NAME, MOST, Pin, PinError, Pins, own_colours
+from dashboard.pins import MOST, Pin, PinError, Pins, own_colours
 from dashboard.state import DesignInputs, preset_values
+from trackig_core.names import LONGEST_NAME
 
 VALUES = preset_values("booted-sleeper")
 

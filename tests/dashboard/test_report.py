@@ -15,7 +15,7 @@ from dashboard.report import html_report
 from dashboard.state import Picture
 
 LOW, HIGH = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["booted-block-high-mass"]
-HOSTILE = "<script>alert('1')</script> $\\frac \" & </svg>"
+HOSTILE = '<script>alert(1)</script>$\\frac "&</svg>'
 DAY = datetime.date(2026, 3, 5)
 
 VOID = {"meta", "br", "link", "img"}
@@ -76,7 +76,7 @@ def study(pictures):
         tig.PinnedDesign("Hidden one", tig.PRESETS["booted-sleeper"], shown=False),
         tig.PinnedDesign("Slab", tig.PRESETS["slab-track"], colour=1),
     ]
-    source = tig.SourceSpectrum([(31.5, 70.0), (63, 65.0)], name=f"Source {HOSTILE[:40]}")
+    source = tig.SourceSpectrum([(31.5, 70.0), (63, 65.0)], name=f"Source {HOSTILE}")
     return tig.Study(LOW, pinned, limits(levels), source, name=f"Study {HOSTILE}")
 
 
