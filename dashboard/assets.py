@@ -13,6 +13,13 @@ FOLDER = next(place for place in (ROOT / "trackig_assets", ROOT / "assets") if p
 """The folder of assets, installed or in a clone."""
 
 
+LESSONS = FOLDER / "lessons"
+"""The folder of lessons."""
+
+METHOD = "method.md"
+"""The method, written for readers."""
+
+
 def read_text(name):
     """Return the text of an asset.
 

@@ -36,11 +36,11 @@ import difflib
 import re
 import tomllib
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import param
 
 import trackig_core as tig
+from dashboard import assets
 from dashboard.quantities import QuantityError, read_claim, read_placeholder
 from dashboard.state import PHYSICAL, DesignInputs
 
@@ -166,18 +166,13 @@ class Revealed:
     problems: tuple[LessonError, ...]
 
 
-def lessons_folder():
-    """Return where the lessons lie (pathlib.Path)."""
-    return Path(__file__).parent.parent / "assets" / "lessons"
-
-
-def load_lessons(folder=None):
+def load_lessons(folder=assets.LESSONS):
     """Read every lesson of a folder.
 
     Parameters
     ----------
     folder : pathlib.Path, optional
-        Where ``*.md`` files lie; :func:`lessons_folder` by default.
+        Where ``*.md`` files lie.
 
     Returns
     -------
@@ -186,7 +181,6 @@ def load_lessons(folder=None):
     problems : tuple of LessonError
         One per file that cannot.
     """
-    folder = lessons_folder() if folder is None else Path(folder)
     files = sorted(folder.glob("*.md"))
     if not files:
         return (), (LessonError(folder.name, None, "no lessons here: add files that end in .md"),)

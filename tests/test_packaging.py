@@ -21,6 +21,8 @@ sys.path.insert(0, sys.argv[1])
 from dashboard import assets
 assert str(assets.FOLDER).startswith(sys.argv[1]), assets.FOLDER
 sys.stdout.reconfigure(encoding="utf-8")
+assert assets.read_text(assets.METHOD)
+assert sorted(assets.LESSONS.glob("*.md"))
 print(assets.read_text("track.svg"), end="")
 """
 

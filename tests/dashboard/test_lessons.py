@@ -13,7 +13,6 @@ from dashboard import lessons as module
 from dashboard.lessons import (
     LARGEST_FILE,
     LessonError,
-    lessons_folder,
     load_lessons,
     parse_lesson,
     read_lesson,
@@ -212,10 +211,6 @@ def test_lines_may_end_as_on_windows(tmp_path):
     file = tmp_path / "windows.md"
     file.write_bytes(b"\xef\xbb\xbf" + GOOD.replace("\n", "\r\n").encode())
     assert read_lesson(file).reveal == "It {{ percent loaded_track }}."
-
-
-def test_the_folder_that_ships_is_the_default():
-    assert lessons_folder().is_dir()
 
 
 @given(st.text(max_size=300), st.integers(0, len(GOOD)))

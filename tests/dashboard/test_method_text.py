@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
-from dashboard.lessons import lessons_folder
+from dashboard import assets
 from trackig_core.asymptotes import PER_RESONANCE
 from trackig_core.relaxation import fit_loss_factor
 
-TEXT = (lessons_folder().parent / "method.md").read_text(encoding="utf-8")
+TEXT = assets.read_text(assets.METHOD)
 EQUATIONS = re.findall(r"^\$\$\n(.*?)\n\$\$$", TEXT, re.DOTALL | re.MULTILINE)
 
 
