@@ -17,6 +17,7 @@ import tomlkit
 from tomlkit.items import Float, Trivia
 
 from trackig_core.band_table import BandTableError
+from trackig_core.catalogue import PRESETS
 from trackig_core.design import DesignError, Rail, TrackDesign
 from trackig_core.gain import REFERENCES, SUMMATIONS
 from trackig_core.measured import LossFactorCurve, MeasurementError, StiffnessCurve
@@ -149,6 +150,8 @@ class PinnedDesign:
         Which of the colours it is drawn in, 0 to 7.
     shown : bool
         Whether it is drawn, reported and checked.
+    preset : str or None
+        Key of ``PRESETS`` from which it departs, if from any.
 
     Raises
     ------
@@ -160,6 +163,7 @@ class PinnedDesign:
     design: TrackDesign
     colour: int = 0
     shown: bool = True
+    preset: str | None = None
 
     def __post_init__(self):
         """Check every value once."""
@@ -170,6 +174,7 @@ class PinnedDesign:
         _check_count(self.colour, COLOURS, "colour")
         if not isinstance(self.shown, bool):
             raise StudyError(f"{brief(self.shown)}: give true or false", "shown")
+        _check_preset(self.preset)
 
 
 @dataclass(frozen=True)
@@ -190,6 +195,8 @@ class Study:
         How insertion gain is reckoned and compared.
     name : str
         What the study is called.
+    preset : str or None
+        Key of ``PRESETS`` from which the design at hand departs, if from any.
 
     Raises
     ------
@@ -203,6 +210,7 @@ class Study:
     source: SourceSpectrum | None = None
     view: View = field(default_factory=View)
     name: str = "Study"
+    preset: str | None = None
 
     def __post_init__(self):
         """Check every value once."""
@@ -220,6 +228,7 @@ class Study:
             raise StudyError(f"{len(self.pinned)} designs: pin at most {MOST_PINNED}", "pinned")
         if self.view.base is not None and self.view.base >= len(self.pinned):
             raise StudyError(f"{self.view.base}: there is no such pinned design", "view.base")
+        _check_preset(self.preset)
 
     @property
     def shown(self):
@@ -275,6 +284,11 @@ class Study:
 def _check_kind(value, kind, path):
     if not isinstance(value, kind):
         raise StudyError(f"{brief(value)}: give a {kind.__name__}", path)
+
+
+def _check_preset(preset):
+    if preset is not None and preset not in tuple(PRESETS):
+        raise StudyError(f"{brief(preset)}: give {', '.join(PRESETS)}, or remove it", "preset")
 
 
 def _check_count(value, end, path):
@@ -356,6 +370,7 @@ def _study(section):
         raise StudyError(f"{len(pinned)} designs: keep at most {MOST_PINNED}", "pinned")
     study = Study(
         name=section.take("name", Study.name),
+        preset=section.take("preset"),
         design=_design(section.section("design")),
         view=view,
         pinned=[_pinned(_Section(each, f"pinned[{number}]")) for number, each in enumerate(pinned)],
@@ -384,10 +399,10 @@ def _view(section):
 
 def _pinned(section):
     name, design = section.need("name"), _design(section.section("design"))
-    colour, shown = section.take("colour", 0), section.take("shown", True)
+    colour, shown, preset = section.take("colour", 0), section.take("shown", True), section.take("preset")
     section.close()
     try:
-        return PinnedDesign(name, design, colour, shown)
+        return PinnedDesign(name, design, colour, shown, preset)
     except StudyError as error:
         raise StudyError(error._message, section.under(error.path)) from None
 
@@ -448,6 +463,8 @@ def _document(study):
     document.add(tomlkit.comment("SI units, as the keys say; stiffnesses are dynamic stiffnesses at 50 Hz."))
     for key, value in (("format", FORMAT), ("version", VERSION), ("name", study.name)):
         document.add(key, value)
+    if study.preset is not None:
+        document.add("preset", study.preset)
     document.add("view", _written_view(study.view))
     document.add("design", _written_design(study.design))
     for name, (_, key) in _TABLES.items():
@@ -471,8 +488,9 @@ def _written_view(view):
 
 def _written_pinned(pinned):
     table = tomlkit.table()
-    for key in ("name", "colour", "shown"):
-        table.add(key, getattr(pinned, key))
+    for key in ("name", "colour", "shown", "preset"):
+        if getattr(pinned, key) is not None:
+            table.add(key, getattr(pinned, key))
     table.add("design", _written_design(pinned.design))
     return table
 

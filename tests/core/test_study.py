@@ -77,9 +77,12 @@ def tables(kind):
     return st.one_of(st.none(), st.builds(kind, rows, names))
 
 
+presets = st.sampled_from([None, *tig.PRESETS])
+
+
 @st.composite
 def studies(draw):
-    pins = st.builds(tig.PinnedDesign, names, designs(), st.integers(0, 7), st.booleans())
+    pins = st.builds(tig.PinnedDesign, names, designs(), st.integers(0, 7), st.booleans(), presets)
     pinned = draw(st.lists(pins, max_size=3))
     base = draw(st.sampled_from([None, *range(len(pinned))]))
     view = tig.View(
@@ -92,6 +95,7 @@ def studies(draw):
         draw(tables(tig.SourceSpectrum)),
         view,
         draw(names),
+        draw(presets),
     )
 
 
@@ -204,6 +208,8 @@ def changed(old, new):
         (changed('name = "Workshop"', 'name = "' + "x" * 61 + '"'), "name: "),
         (changed('name = "Slab"', 'name = "a\\nb"'), "pinned[0].name: "),
         (changed('name = "Slab"', 'name = "\\u202e"'), "pinned[0].name: "),
+        (changed("colour = 3", "preset = 'slab'"), "pinned[0].preset: 'slab': give slab-track, booted-sl"),
+        (changed("version = 1", "version = 1\npreset = ['slab']"), "preset: ['slab']: give slab-track, "),
         (changed("colour = 3", "colour = 8"), "pinned[0].colour: 8: give a whole number from 0 to 7"),
         (changed("colour = 3", "colour = 3.0"), "pinned[0].colour: 3.0"),
         (changed("colour = 3", "color = 3"), "pinned[0].color: there is no such key; write 'colour'"),
