@@ -7,7 +7,7 @@ The one rule: bands are integrated to their exact edges, whatever the spacing of
 """
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, make_interp_spline
 
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
 from trackig_core.results import InsertionGain
@@ -60,7 +60,8 @@ def insertion_gain(spectrum, design, loaded_track, reference="line", summation="
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
         near = np.searchsorted(frequency, anchor)
         around = slice(max(0, near - ANCHOR_POINTS), near + ANCHOR_POINTS)
-        height = float(CubicSpline(frequency[around], energy[around] / frequency[around] ** 2)(anchor))
+        curve = make_interp_spline(frequency[around], energy[around] / frequency[around] ** 2)
+        height = float(curve(anchor))
     else:
         # E = (m_w w^2 step)^2 / w^2
         height = (2 * np.pi * design.wheel_mass * spectrum.step) ** 2

@@ -15,8 +15,8 @@ from trackig_core.results import ForceSpectrum
 TOP_FREQUENCY = 600.0
 """Highest frequency of a spectrum [Hz]: above the upper edge of the 500 Hz band, 562 Hz."""
 
-COLUMNS = 32
-"""Supports that are transformed at a time [-], so that transforms stay small beside the record itself."""
+COLUMNS = 8
+"""Supports that are transformed at a time [-]: few enough that memory is used again, not asked for anew."""
 
 
 def force_spectrum(history, padding=1):
