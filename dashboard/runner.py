@@ -55,7 +55,7 @@ def take_picture(key, progress, cancelled):
     Returns
     -------
     Picture
-        The solution without its time history, and the two forces that are drawn.
+        The solution without its time history, and the two forces that are drawn; none of an exact one.
     """
     design, fidelity = key
     began = time.perf_counter()

@@ -11,6 +11,7 @@ from dashboard.state import (
     PHYSICAL,
     PRESET_LABELS,
     DesignInputs,
+    Picture,
     design_of,
     preset_values,
     to_display,
@@ -182,3 +183,22 @@ def test_labels_carry_units():
     for name in ("block_mass", "wheel_mass"):
         assert DesignInputs.param[name].label.endswith(", kg")
     assert DesignInputs.param.fastener_spacing.label.endswith(", m")
+
+
+def test_a_picture_is_a_solution_in_display_units_without_its_history():
+    solution = tig.solve(tig.PRESETS["booted-block-low-mass"], "live")
+    picture = Picture.of(solution, 0.25)
+    assert picture.design == solution.design
+    assert picture.solution.history is None
+    assert picture.solution.insertion_gain == pytest.approx(solution.insertion_gain, abs=0)
+    assert 1000 * picture.total_force == pytest.approx(solution.total_force)
+    assert 1000 * picture.loaded_support_force == pytest.approx(solution.loaded_support_force)
+    assert picture.time is solution.time
+    assert picture.step / 1000 == pytest.approx(solution.history.step)
+    assert picture.seconds == 0.25
+
+
+def test_an_exact_picture_has_no_forces_over_time():
+    picture = Picture.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.001)
+    assert picture.solution.insertion_gain.shape == (21,)
+    assert [picture.time, picture.loaded_support_force, picture.total_force, picture.step] == [None] * 4
