@@ -46,7 +46,8 @@ def curves(kind, columns):
 
 
 numbers = {name: within(low, high) for name, (low, high, _) in RANGES.items()}
-names = st.text(min_size=1, max_size=LONGEST_NAME).filter(is_name)
+printable = st.characters(exclude_categories=["C", "Z"], include_characters=" ")
+names = st.text(printable, min_size=1, max_size=LONGEST_NAME).filter(is_name)
 rails = st.one_of(
     st.sampled_from(list(tig.RAILS.values())),
     st.builds(tig.Rail, names, numbers["mass_per_metre"], numbers["bending_stiffness"]),

@@ -39,7 +39,8 @@ def any_design(two_stage):
     """Return every design of plain numbers that the core allows."""
     second = ("block_mass", "boot_stiffness", "boot_loss_factor") if two_stage else ()
     first = ("pad_stiffness", "pad_loss_factor", "fastener_spacing", "wheel_mass", "contact_stiffness")
-    names = st.text(min_size=1, max_size=LONGEST_NAME).filter(is_name)
+    printable = st.characters(exclude_categories=["C", "Z"], include_characters=" ")
+    names = st.text(printable, min_size=1, max_size=LONGEST_NAME).filter(is_name)
     rail = st.builds(tig.Rail, names, numbers("mass_per_metre"), numbers("bending_stiffness"))
     return st.builds(tig.TrackDesign, rail=rail, **{name: numbers(name) for name in (*first, *second)})
 
