@@ -11,7 +11,6 @@ inputs.
 
 import asyncio
 import contextlib
-import dataclasses
 import functools
 import logging
 import os
@@ -22,7 +21,7 @@ from functools import partial
 import panel as pn
 
 import trackig_core as tig
-from dashboard.state import KILONEWTON, PHYSICAL, Picture
+from dashboard.state import PHYSICAL, Picture
 from dashboard.store import SolutionStore
 
 AT_REST = "paper"
@@ -70,20 +69,12 @@ def take_picture(key, progress, cancelled):
     Returns
     -------
     Picture
-        The solution without its time history, and the two forces that are drawn.
+        The solution without its time history, and the two forces that are drawn; none of an exact one.
     """
     design, fidelity = key
     began = time.perf_counter()
     solution = tig.solve(design, fidelity=fidelity, progress=progress, cancelled=cancelled)
-    seconds = time.perf_counter() - began
-    return Picture(
-        solution=dataclasses.replace(solution, history=None),
-        time=solution.time,
-        loaded_support_force=solution.loaded_support_force / KILONEWTON,
-        total_force=solution.total_force / KILONEWTON,
-        step=1000 * solution.history.step,
-        seconds=seconds,
-    )
+    return Picture.of(solution, time.perf_counter() - began)
 
 
 @functools.cache

@@ -5,6 +5,7 @@ picture and how the solver fares. The one rule: units are converted here and now
 nothing here knows how it is shown.
 """
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,6 +57,9 @@ NUMBERS = (
 PHYSICAL = (*NUMBERS, "two_stage", "rail")
 """Inputs that make the design: a change of any asks for a new solution."""
 
+INPUTS = ("preset", *PHYSICAL)
+"""All that a user sets of a design."""
+
 
 def to_si(name, value):
     """Return an input's display value in the core's unit."""
@@ -65,6 +69,30 @@ def to_si(name, value):
 def to_display(name, value):
     """Return a design's value in the unit that is shown."""
     return six_figures(value / NEWTON_PER_METRE if name in STIFFNESSES else value)
+
+
+def design_of(values):
+    """Return the design of display values, in SI units.
+
+    Parameters
+    ----------
+    values : mapping
+        Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused.
+
+    Returns
+    -------
+    trackig_core.TrackDesign
+        The design; equal values give equal designs, whatever path led there.
+
+    Raises
+    ------
+    trackig_core.DesignError
+        If the values do not make a track.
+    """
+    names = [name for name in NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
+    return tig.TrackDesign(
+        rail=tig.RAILS[values["rail"]], **{name: to_si(name, values[name]) for name in names}
+    )
 
 
 def display_values(design):
@@ -94,6 +122,23 @@ def _number(name, low, high, step, label):
     return param.Number(default=opening, bounds=(low, high), step=step, label=label)
 
 
+def preset_values(key):
+    """Return all inputs as they are when a preset has been chosen on a fresh page.
+
+    Parameters
+    ----------
+    key : str
+        Key of ``trackig_core.PRESETS``.
+
+    Returns
+    -------
+    dict
+        Values by name of :data:`INPUTS` [display units]; what a single-stage preset lacks is as it opens.
+    """
+    opening = {name: DesignInputs.param[name].default for name in INPUTS}
+    return {**opening, "preset": key, **display_values(tig.PRESETS[key])}
+
+
 class DesignInputs(param.Parameterized):
     """A track design in display units, and the preset from which it departs."""
 
@@ -118,10 +163,13 @@ class DesignInputs(param.Parameterized):
     contact_stiffness = _number("contact_stiffness", 200, 5000, 10, "Contact stiffness, kN/mm")
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
 
+    _taking = False
+
     @param.depends("preset", watch=True)
     def revert(self):
         """Set every input to the preset's value; inputs that the preset does not have keep theirs."""
-        self.param.update(**display_values(self.preset_design))
+        if not self._taking:
+            self.param.update(**display_values(self.preset_design))
         self._note_modified()
 
     @property
@@ -142,14 +190,41 @@ class DesignInputs(param.Parameterized):
         trackig_core.DesignError
             If the inputs do not make a track.
         """
-        names = [name for name in NUMBERS if self.two_stage or name not in SECOND_STAGE]
-        return tig.TrackDesign(
-            rail=tig.RAILS[self.rail], **{name: to_si(name, getattr(self, name)) for name in names}
-        )
+        return design_of(self.to_values())
+
+    def to_values(self):
+        """Return every input that a user sets, by name, float dust taken off: what :meth:`take` takes."""
+        values = {name: getattr(self, name) for name in INPUTS}
+        return {**values, **{name: six_figures(values[name]) for name in NUMBERS}}
+
+    def take(self, values):
+        """Set several inputs as one change, the preset among them without reverting to it.
+
+        Parameters
+        ----------
+        values : mapping
+            Values by name of :data:`INPUTS`, such as :meth:`to_values` gave [display units].
+
+        Raises
+        ------
+        ValueError
+            If a value is not allowed; then nothing has changed.
+        """
+        check_values(values)
+        self._taking = True
+        try:
+            self.param.update(**values)
+        finally:
+            self._taking = False
 
     @param.depends(*PHYSICAL, watch=True)
     def _note_modified(self):
         self.modified = self.to_design() != self.preset_design
+
+
+def check_values(values):
+    """Raise a ValueError that says which, unless inputs can hold the values [display units]."""
+    DesignInputs(**values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,22 +235,37 @@ class Picture:
     ----------
     solution : trackig_core.Solution
         The solution without its time history, which is a hundred times larger than the rest.
-    time : numpy.ndarray (samples,) [s]
-        Time since the step in contact compression.
-    loaded_support_force, total_force : numpy.ndarray (samples,) [kN]
+    time : numpy.ndarray (samples,) or None [s]
+        Time since the step in contact compression; None, as are the next three, when nothing was stepped
+        in time.
+    loaded_support_force, total_force : numpy.ndarray (samples,) or None [kN]
         Force into the ground under the wheel, and summed over all supports.
-    step : float [mm]
+    step : float or None [mm]
         Height of the step.
     seconds : float [s]
         How long the solver took.
     """
 
     solution: tig.Solution
-    time: np.ndarray
-    loaded_support_force: np.ndarray
-    total_force: np.ndarray
-    step: float
+    time: np.ndarray | None
+    loaded_support_force: np.ndarray | None
+    total_force: np.ndarray | None
+    step: float | None
     seconds: float
+
+    @classmethod
+    def of(cls, solution, seconds):
+        """Return what is shown of a solution that took some time [s]."""
+        if solution.history is None:
+            return cls(solution, None, None, None, None, seconds)
+        return cls(
+            solution=dataclasses.replace(solution, history=None),
+            time=solution.time,
+            loaded_support_force=solution.loaded_support_force / KILONEWTON,
+            total_force=solution.total_force / KILONEWTON,
+            step=1000 * solution.history.step,
+            seconds=seconds,
+        )
 
     @property
     def design(self):

@@ -26,7 +26,32 @@ PRESET_GHOST = "#808080"
 THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
-FIGURE_COLOURS = (THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST)
+SPECIFICATION = "#c2410c"
+"""The limit of a specification, and where it is exceeded."""
+
+DESIGN_COLOURS = (
+    "#cc830e",
+    "#9c3e88",
+    "#21a869",
+    "#817600",
+    "#695be0",
+    "#f55e3d",
+    "#785f29",
+    "#9e5248",
+)
+"""Pinned designs: the hues of Okabe and Ito, as light and as dark as both papers allow. Those that share a
+dash, and the design at hand, differ for protanopes, deuteranopes and tritanopes too."""
+
+DESIGN_COLOUR_NAMES = ("orange", "purple", "green", "olive", "violet", "vermilion", "brown", "russet")
+"""What the colours of pinned designs are called."""
+
+DESIGN_DASHES = ((), (9, 4), (3, 3), (10, 3, 2, 3)) * 2
+"""Dash of each of them: the second cue."""
+
+FIGURE_COLOURS = (
+    *(THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST, SPECIFICATION),
+    *DESIGN_COLOURS,
+)
 
 APP_BAR = "#17324d"
 
@@ -71,6 +96,12 @@ def level_text(level):
     return f"{level:+.1f} dB".replace("-", "−")
 
 
+def signed_text(level):
+    """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
+    text = f"{level:+.1f}"
+    return "0.0" if float(text) == 0 else text.replace("-", "−")
+
+
 LEAST_DIFFERENCE = 1e-6
 """Differences of levels below this are not told apart [dB]."""
 
@@ -84,6 +115,12 @@ def difference_text(difference):
 def quantity_text(value):
     """Return an input's value as it is typed: up to six figures, no trailing zeros."""
     return f"{value:.6g}"
+
+
+def name_text(name, longest):
+    """Return a name that somebody typed as it is shown: one line of printable characters, cut at a length."""
+    words = "".join(letter if letter.isprintable() else " " for letter in name[: longest + 1])
+    return words if len(words) <= longest else words[: longest - 1] + "…"
 
 
 GROUP_HEADING = {"fontWeight": 700, "letterSpacing": "0.02em"}
@@ -155,3 +192,11 @@ dl {{ margin: 12px 14px 10px 14px; font-size: 14px; }}
 dt {{ font-weight: 700; text-align: right; font-variant-numeric: tabular-nums; }}
 dd {{ margin: 0; }}
 """
+
+REPORT_INK = "#1b2733"
+REPORT_FAINT = "#5b6773"
+REPORT_RULE = "#d5dbe1"
+REPORT_SHADE = "#f3f5f7"
+REPORT_GOOD = "#00704f"
+REPORT_BAD = "#b3261e"
+"""A report is printed: dark ink on white paper, whatever the theme of the page."""

@@ -15,6 +15,7 @@ import numbers
 from dataclasses import dataclass
 
 from trackig_core.measured import LossFactorCurve, StiffnessCurve
+from trackig_core.names import allowed, brief, is_name
 
 REFERENCE_FREQUENCY = 50.0
 """Frequency at which a pad's or boot's dynamic stiffness is stated [Hz]; the paper, section on damping."""
@@ -53,8 +54,7 @@ class DesignError(ValueError):
 
     def __init__(self, field, value, allowed):
         self.field, self.value, self.allowed = field, value, allowed
-        shown = repr(value)
-        super().__init__(f"{field} = {shown if len(shown) <= 60 else shown[:57] + '...'}: give {allowed}")
+        super().__init__(f"{field} = {brief(value)}: give {allowed}")
 
     def __reduce__(self):
         """Let the error pass between processes."""
@@ -119,8 +119,8 @@ class Rail:
 
     def __post_init__(self):
         """Check every value once."""
-        if not isinstance(self.name, str) or not 1 <= len(self.name) <= 40:
-            raise DesignError("name", self.name, "a name of 1 to 40 characters")
+        if not is_name(self.name):
+            raise DesignError("name", self.name, allowed())
         for field in ("mass_per_metre", "bending_stiffness"):
             object.__setattr__(self, field, check_number(field, getattr(self, field)))
 

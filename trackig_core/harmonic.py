@@ -73,6 +73,23 @@ class Lattice:
         if self.memory_order not in (1, 2):
             raise ValueError(f"memory_order = {self.memory_order!r}: give 1 or 2")
 
+    def frequency_squared(self, frequency):
+        """Return the square of the angular frequency as the time stepping sees it.
+
+        Parameters
+        ----------
+        frequency : numpy.ndarray (frequencies,)
+            Frequencies [Hz].
+
+        Returns
+        -------
+        numpy.ndarray (frequencies,)
+            w^2 in continuous time, else (2/dt sin(w dt/2))^2 [1/s2].
+        """
+        if self.time_step is None:
+            return (2 * np.pi * frequency) ** 2
+        return (2 / self.time_step * np.sin(np.pi * frequency * self.time_step)) ** 2
+
 
 INFINITE = Lattice()
 """The infinite track in continuous time, three elements a bay."""
@@ -211,10 +228,7 @@ def waves(design, frequency, lattice=INFINITE):
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
     if not (frequency > 0).all():
         raise ValueError("frequencies must be greater than 0 Hz")
-    if lattice.time_step is None:
-        squared = (2 * np.pi * frequency) ** 2
-    else:
-        squared = (2 / lattice.time_step * np.sin(np.pi * frequency * lattice.time_step)) ** 2
+    squared = lattice.frequency_squared(frequency)
     pad_law, boot_law = laws(design)
     pad = dynamic_stiffness(pad_law, frequency, lattice)
     support, transfer = pad, pad
@@ -360,9 +374,6 @@ def exact_spectrum(design, frequency, step, lattice=INFINITE):
 def resolved_spectrum(design, frequency, step, lattice=INFINITE):
     """Return an exact spectrum on a frequency axis that is refined until it shows every peak.
 
-    Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
-    by no more than :data:`STRAIGHTNESS`.
-
     Parameters
     ----------
     design : TrackDesign
@@ -379,11 +390,32 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
     ForceSpectrum
         Energy at the given and the added frequencies.
     """
-    known = exact_spectrum(design, frequency, step, lattice)
+    return refined_spectrum(lambda between: exact_spectrum(design, between, step, lattice), frequency)
+
+
+def refined_spectrum(spectrum_at, frequency):
+    """Return any model's spectrum on a frequency axis that is refined until it shows every peak.
+
+    Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
+    by no more than :data:`STRAIGHTNESS`.
+
+    Parameters
+    ----------
+    spectrum_at : callable
+        ``spectrum_at(frequency)`` returns the ForceSpectrum at an array of frequencies [Hz].
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies to begin with [Hz], ascending and greater than zero; all are kept.
+
+    Returns
+    -------
+    ForceSpectrum
+        Energy at the given and the added frequencies.
+    """
+    known = spectrum_at(frequency)
     rows = np.array([known.frequency, known.energy, known.coherent_energy])
     left, right = rows[:, :-1], rows[:, 1:]
     for _ in range(MOST_HALVINGS):
-        between = exact_spectrum(design, (left[0] + right[0]) / 2, step, lattice)
+        between = spectrum_at((left[0] + right[0]) / 2)
         middle = np.array([between.frequency, between.energy, between.coherent_energy])
         rows = np.concatenate([rows, middle], axis=1)
         ratio = middle[1:] ** 2 / (left[1:] * right[1:])
@@ -395,7 +427,7 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
         left, middle, right = left[:, bent], middle[:, bent], right[:, bent]
         left, right = np.concatenate([left, middle], axis=1), np.concatenate([middle, right], axis=1)
     rows = rows[:, np.argsort(rows[0])]
-    return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=step)
+    return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=known.step)
 
 
 def refuse_if_unbounded(design):
@@ -425,6 +457,25 @@ def _grounded_loss(design):
     return field, getattr(design, field)
 
 
+def band_frequencies(loaded_track):
+    """Return frequencies from which a spectrum over all bands may be refined.
+
+    Parameters
+    ----------
+    loaded_track : float
+        Loaded-track frequency, at a tenth of which the line is anchored [Hz].
+
+    Returns
+    -------
+    numpy.ndarray (frequencies,)
+        Frequencies [Hz], ascending, among them every band edge and the anchor if it lies below the bands.
+    """
+    anchor = LINE_FRACTION * loaded_track
+    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
+    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
+    return np.concatenate([below, between])
+
+
 def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
     """Return the exact spectrum over all one-third-octave bands, and down to where the line is anchored.
 
@@ -449,10 +500,7 @@ def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
     DesignError
         If the spectrum cannot be told from rounding, as with next to no loss.
     """
-    anchor = LINE_FRACTION * loaded_track
-    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
-    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
-    spectrum = resolved_spectrum(design, np.concatenate([below, between]), step, lattice)
+    spectrum = resolved_spectrum(design, band_frequencies(loaded_track), step, lattice)
     if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
         field, value = _grounded_loss(design)
         raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from trackig_core.names import brief
+
 MOST_POINTS = 1000
 """Rows that a table may have [-]."""
 
@@ -143,6 +145,5 @@ def _number(column, value, row):
             number = math.inf
         if math.isfinite(number) and low <= number <= high:
             return number
-    shown = repr(value)
-    shown = shown if len(shown) <= 40 else shown[:37] + "..."
-    raise MeasurementError(f"{column} = {shown}: give a number from {low:g} to {high:g} {unit}".rstrip(), row)
+    allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
+    raise MeasurementError(f"{column} = {brief(value, 40)}: give {allowed}", row)

@@ -53,14 +53,30 @@ def natural_frequencies(design):
         loaded = loaded_track(design)
         return NaturalFrequencies(loaded, None, loaded, None, cut_on(design))
     rigid_blocks = design.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
-    pad, boot = laws(design)
+    _, boot = laws(design)
     return NaturalFrequencies(
         loaded_track=loaded_track(design),
-        coupled_block=_oscillator(design.block_mass, pad, boot),
+        coupled_block=coupled_block(design),
         wheel_on_rigid_blocks=loaded_track(rigid_blocks),
         block_on_boot=_oscillator(design.block_mass, boot),
         cut_on=cut_on(design),
     )
+
+
+def coupled_block(design):
+    """Return the frequency of the block between pad and boot, the rail held.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    float or None
+        Frequency [Hz]; None when single-stage.
+    """
+    return _oscillator(design.block_mass, *laws(design)) if design.two_stage else None
 
 
 def _oscillator(mass, *laws):
@@ -69,7 +85,7 @@ def _oscillator(mass, *laws):
     def natural(stiffnesses):
         return math.sqrt(sum(stiffnesses) / mass) / (2 * math.pi)
 
-    return _consistent(natural, laws)
+    return consistent(natural, laws)
 
 
 def cut_on(design):
@@ -90,20 +106,50 @@ def cut_on(design):
     if boot is None:
         return (_oscillator(rail_mass, pad),)
 
-    def natural(stiffnesses, sign):
-        k_pad, k_boot = stiffnesses
-        # the two roots of (k_p - m_r x)(k_p + k_b - m_b x) = k_p^2, x = w^2
-        rail, block = k_pad / rail_mass, (k_pad + k_boot) / design.block_mass
-        half = (rail + block) / 2
-        larger = half + math.sqrt((rail - block) ** 2 / 4 + rail * k_pad / design.block_mass)
-        product = rail * k_boot / design.block_mass
-        return math.sqrt(larger if sign > 0 else product / larger) / (2 * math.pi)
+    def natural(stiffnesses, which):
+        return chain_pair(*stiffnesses, rail_mass, design.block_mass)[which]
 
-    return tuple(_consistent(lambda k, sign=sign: natural(k, sign), (pad, boot)) for sign in (-1, 1))
+    return tuple(consistent(lambda k, which=which: natural(k, which), (pad, boot)) for which in (0, 1))
 
 
-def _consistent(natural, laws):
-    """Return the frequency f [Hz] that ``natural`` gives for the stiffnesses Re K(f)."""
+def chain_pair(upper_stiffness, lower_stiffness, upper_mass, lower_mass):
+    """Return the natural frequencies of two masses in a chain: mass, spring, mass, spring, ground.
+
+    Parameters
+    ----------
+    upper_stiffness, lower_stiffness : float
+        Spring between the masses, spring on the ground [N/m].
+    upper_mass, lower_mass : float
+        Masses [kg].
+
+    Returns
+    -------
+    tuple of float
+        Two frequencies, ascending [Hz].
+    """
+    # the two roots of (k_u - m_u x)(k_u + k_l - m_l x) = k_u^2, x = w^2
+    upper, lower = upper_stiffness / upper_mass, (upper_stiffness + lower_stiffness) / lower_mass
+    larger = (upper + lower) / 2 + math.sqrt((upper - lower) ** 2 / 4 + upper * upper_stiffness / lower_mass)
+    # the smaller from their product, which does not cancel
+    smaller = upper * lower_stiffness / lower_mass / larger
+    return math.sqrt(smaller) / (2 * math.pi), math.sqrt(larger) / (2 * math.pi)
+
+
+def consistent(natural, laws):
+    """Return the frequency that belongs to the stiffnesses which springs have at that frequency.
+
+    Parameters
+    ----------
+    natural : callable
+        ``natural(stiffnesses)`` returns a natural frequency [Hz], the higher the stiffer any spring [N/m].
+    laws : sequence of Relaxation
+        Laws of the springs.
+
+    Returns
+    -------
+    float
+        The frequency f = natural(Re K(f)) [Hz]. There is but one: Re K(f) / f^2 falls with frequency.
+    """
     low = natural([law.stiffness(0.0) for law in laws]) * (1 - _MARGIN)
     high = natural([law.instantaneous for law in laws]) * (1 + _MARGIN)
     return brentq(lambda f: f - natural([law.stiffness(f) for law in laws]), low, high, xtol=1e-9)

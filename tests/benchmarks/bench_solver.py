@@ -3,6 +3,7 @@
 Run with ``python -m pip install -e ".[dev]"`` and ``pytest tests/benchmarks/bench_solver.py``.
 """
 
+import numpy as np
 import pytest
 
 import trackig_core as tig
@@ -48,3 +49,12 @@ def test_spectrum_of_a_run_alone(benchmark):
     design = tig.PRESETS["booted-block-low-mass"]
     history = simulate(design, make_grid(design))
     benchmark.pedantic(force_spectrum, (history,), rounds=10, warmup_rounds=1)
+
+
+def test_frequency_sweep_of_sixty_points(benchmark):
+    values = np.geomspace(2e6, 2e8, 60)
+    benchmark(tig.frequency_sweep, tig.PRESETS["booted-block-low-mass"], "boot_stiffness", values)
+
+
+def test_steady_shape_of_one_frequency(benchmark):
+    benchmark(tig.steady_shape, tig.PRESETS["booted-block-low-mass"], 63.0)

@@ -1,21 +1,14 @@
 """Fixtures of the core's tests: the golden results, and each preset solved once."""
 
 import json
-import os
 from functools import cache
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
 
 import trackig_core as tig
 
 DATA = Path(__file__).parent.parent / "data"
-
-# A run that decides whether a change may land draws the same examples every time; others explore.
-settings.register_profile("ci", derandomize=True, deadline=None)
-if os.environ.get("CI"):
-    settings.load_profile("ci")
 
 
 @pytest.fixture(scope="session")

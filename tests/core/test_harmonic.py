@@ -23,10 +23,11 @@ BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
 FREQUENCIES = np.array([0.5, 5.0, 39.0, 70.0, 134.0, 250.0, 301.0, 500.0, 1200.0])
 
 
-def brute_force(design, frequency, lattice):
-    """Return rail, block and wheel response of the whole ring per unit roughness, by one dense solve.
+def dense_response(design, frequency, lattice):
+    """Return every rail element's, every block's and the wheel's displacement per unit roughness.
 
-    Unknowns: every rail element, every block, the wheel. Roughness squeezes the contact spring.
+    One dense solve of the whole ring. Unknowns: every rail element, every block, the wheel. Roughness
+    squeezes the contact spring.
     """
     bays, per_bay = lattice.bays, lattice.elements_per_bay
     dx, count = design.fastener_spacing / per_bay, bays * per_bay
@@ -52,10 +53,19 @@ def brute_force(design, frequency, lattice):
     load = np.zeros(size, dtype=complex)
     load[0], load[-1] = k, -k
     response = np.linalg.solve(matrix, load)
-    rail, block, wheel = response[:count], response[count:-1], response[-1]
-    contact = k * (1 + wheel - rail[0])
-    ground = pad * rail[::per_bay] if boot is None else boot * block
-    return contact, rail[::per_bay], ground
+    return response[:count], response[count:-1], response[-1]
+
+
+def brute_force(design, frequency, lattice):
+    """Return contact force, rail over supports and force into the ground per roughness, solved densely."""
+    rail, block, wheel = dense_response(design, frequency, lattice)
+    over_supports = rail[:: lattice.elements_per_bay]
+    pad, boot = (
+        None if law is None else dynamic_stiffness(law, np.array([frequency]), lattice)[0]
+        for law in laws(design)
+    )
+    contact = design.contact_stiffness * (1 + wheel - rail[0])
+    return contact, over_supports, pad * over_supports if boot is None else boot * block
 
 
 @pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two-stage", "single-stage"])

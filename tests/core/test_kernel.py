@@ -115,7 +115,7 @@ def test_interpreted_and_compiled_kernels_agree(monkeypatch):
 
 
 @given(factor=st.floats(-1e3, 1e3).filter(lambda x: abs(x) > 1e-3))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 def test_response_is_linear_in_the_step(factor):
     grid = make_grid(BLOCK, bays=31)
     _, once = step_through(BLOCK, grid, 400, step=1e-4)

@@ -76,7 +76,7 @@ ordinary_designs = st.builds(
     wheel_mass=st.floats(200, 1500),
     contact_stiffness=st.floats(2e8, 5e9),
 )
-FEW = settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+FEW = settings(max_examples=8, suppress_health_check=[HealthCheck.too_slow])
 
 
 @given(ordinary_designs)
@@ -108,7 +108,7 @@ def test_any_valid_design_gives_finite_results(design, single_stage, spacing, lo
 
 
 @given(designs.filter(lambda design: design.boot_loss_factor > 1e-3))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_any_valid_design_has_a_finite_exact_solution(design):
     solution = tig.solve(design, "exact")
     assert np.isfinite(solution.insertion_gain).all()

@@ -5,7 +5,18 @@ import dataclasses
 import pytest
 
 import trackig_core as tig
-from dashboard.state import NUMBERS, PRESET_LABELS, DesignInputs, to_display, to_si
+from dashboard.state import (
+    INPUTS,
+    NUMBERS,
+    PHYSICAL,
+    PRESET_LABELS,
+    DesignInputs,
+    Picture,
+    design_of,
+    preset_values,
+    to_display,
+    to_si,
+)
 
 
 @pytest.mark.parametrize("preset", tig.PRESETS)
@@ -118,9 +129,76 @@ def test_a_preset_arrives_as_one_change():
     assert batches == [{"pad_stiffness", "block_mass", "boot_stiffness"}]
 
 
+@pytest.mark.parametrize("preset", tig.PRESETS)
+def test_values_of_a_preset_are_those_of_a_fresh_page_that_chose_it(preset):
+    inputs = DesignInputs()
+    inputs.preset = preset
+    assert preset_values(preset) == inputs.to_values()
+    assert design_of(preset_values(preset)) == tig.PRESETS[preset]
+
+
+TUNED = {"two_stage": False, "rail": "49E1", "boot_stiffness": 12.5, "fastener_spacing": 0.65}
+
+
+def test_values_taken_back_give_the_same_design_as_one_change():
+    inputs = DesignInputs(preset="slab-track", **TUNED)
+    values = inputs.to_values()
+    other = DesignInputs()
+    batches = []
+    other.param.watch(lambda *events: batches.append({event.name for event in events}), list(INPUTS))
+    other.take(values)
+    assert other.to_values() == values
+    assert other.to_design() == inputs.to_design()
+    assert other.modified
+    assert batches == [{"preset", *TUNED}]
+
+
+def test_taking_a_preset_as_published_is_no_modification():
+    inputs = DesignInputs()
+    inputs.block_mass = 77
+    inputs.take(preset_values("booted-sleeper"))
+    assert not inputs.modified
+    inputs.preset = "booted-block-low-mass"
+    assert inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
+
+
+def test_values_carry_no_float_dust():
+    inputs = DesignInputs()
+    inputs.fastener_spacing = 0.1 + 0.2
+    assert inputs.to_values()["fastener_spacing"] == 0.3
+
+
+def test_values_out_of_bounds_change_nothing():
+    inputs = DesignInputs()
+    before = inputs.to_values()
+    with pytest.raises(ValueError, match="block_mass"):
+        inputs.take({**before, "pad_stiffness": 200, "block_mass": 9999})
+    assert inputs.to_values() == before
+    assert set(before) == {"preset", *PHYSICAL}
+
+
 def test_labels_carry_units():
     for name in ("pad_stiffness", "boot_stiffness", "contact_stiffness"):
         assert DesignInputs.param[name].label.endswith(", kN/mm")
     for name in ("block_mass", "wheel_mass"):
         assert DesignInputs.param[name].label.endswith(", kg")
     assert DesignInputs.param.fastener_spacing.label.endswith(", m")
+
+
+def test_a_picture_is_a_solution_in_display_units_without_its_history():
+    solution = tig.solve(tig.PRESETS["booted-block-low-mass"], "live")
+    picture = Picture.of(solution, 0.25)
+    assert picture.design == solution.design
+    assert picture.solution.history is None
+    assert picture.solution.insertion_gain == pytest.approx(solution.insertion_gain, abs=0)
+    assert 1000 * picture.total_force == pytest.approx(solution.total_force)
+    assert 1000 * picture.loaded_support_force == pytest.approx(solution.loaded_support_force)
+    assert picture.time is solution.time
+    assert picture.step / 1000 == pytest.approx(solution.history.step)
+    assert picture.seconds == 0.25
+
+
+def test_an_exact_picture_has_no_forces_over_time():
+    picture = Picture.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.001)
+    assert picture.solution.insertion_gain.shape == (21,)
+    assert [picture.time, picture.loaded_support_force, picture.total_force, picture.step] == [None] * 4

@@ -1,15 +1,82 @@
-"""Contrast of the colours, and numbers as text."""
+"""Contrast and difference of the colours, and numbers as text."""
 
+from itertools import combinations
+
+import numpy as np
 import pytest
 
 from dashboard import style
 
+TO_XYZ = np.array([[0.4125, 0.3576, 0.1804], [0.2127, 0.7152, 0.0722], [0.0193, 0.1192, 0.9503]])
+"""Linear sRGB to XYZ; IEC 61966-2-1."""
+
+READERS = {
+    "all cones": np.eye(3),
+    "protanope": [
+        [0.152286, 1.052583, -0.204868],
+        [0.114503, 0.786281, 0.099216],
+        [-0.003882, -0.048116, 1.051998],
+    ],
+    "deuteranope": [
+        [0.367322, 0.860646, -0.227968],
+        [0.280085, 0.672501, 0.047413],
+        [-0.01182, 0.04294, 0.968881],
+    ],
+    "tritanope": [
+        [1.255528, -0.076749, -0.178779],
+        [-0.078411, 0.930809, 0.147602],
+        [0.004733, 0.691367, 0.3039],
+    ],
+}
+"""How readers see linear sRGB; Machado, Oliveira and Fernandes (2009), severity 1."""
+
+CLEAR, TOLERABLE = 15, 9
+"""Difference in CIELAB between colours that are told apart alone, and with a dash to help; 2.3 is just
+noticeable side by side (Mahy et al., 1994)."""
+
+
+def linear(colour):
+    """Return the linear channels of an sRGB colour."""
+    channels = np.array([int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)])
+    return np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+
 
 def luminance(colour):
     """Relative luminance of an sRGB colour; WCAG 2.2."""
-    channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+    return np.array([0.2126, 0.7152, 0.0722]) @ linear(colour)
+
+
+def seen(colour, reader):
+    """Return a colour in CIELAB, as a reader sees it."""
+    seen_xyz = TO_XYZ @ np.clip(np.array(READERS[reader]) @ linear(colour), 0, 1) / TO_XYZ.sum(axis=1)
+    x, y, z = np.where(seen_xyz > 216 / 24389, np.cbrt(seen_xyz), (24389 / 27 * seen_xyz + 16) / 116)
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+def difference(one, other, reader):
+    """Return how far apart a reader sees two colours, in CIELAB."""
+    return np.linalg.norm(seen(one, reader) - seen(other, reader))
+
+
+def test_differences_are_those_of_the_cielab_of_black_and_white():
+    assert difference("#000000", "#ffffff", "all cones") == pytest.approx(100, abs=0.1)
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_the_design_at_hand_differs_from_every_pinned_one(reader):
+    for colour in style.DESIGN_COLOURS:
+        assert difference(style.THIS_DESIGN, colour, reader) >= CLEAR
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_pinned_designs_differ_by_colour_or_by_colour_and_dash(reader):
+    designs = list(zip(style.DESIGN_COLOURS, style.DESIGN_DASHES, strict=True))
+    for (one, dash), (other, other_dash) in combinations(designs, 2):
+        assert difference(one, other, reader) >= (CLEAR if dash == other_dash else TOLERABLE)
+
+
+def test_every_design_colour_has_a_name():
+    assert len(style.DESIGN_COLOUR_NAMES) == len({*style.DESIGN_COLOUR_NAMES}) == len(style.DESIGN_COLOURS)
 
 
 @pytest.mark.parametrize("paper", [style.LIGHT_PAPER, style.DARK_PAPER])
@@ -44,3 +111,16 @@ def test_levels_have_a_sign(level, text):
 )
 def test_quantities_read_as_typed(value, text):
     assert style.quantity_text(value) == text
+
+
+@pytest.mark.parametrize(("level", "text"), [(0.04, "0.0"), (-0.04, "0.0"), (-3.26, "−3.3"), (2.0, "+2.0")])
+def test_levels_in_tables_have_a_sign_unless_zero(level, text):
+    assert style.signed_text(level) == text
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("Softer boot", "Softer boot"), ("a\x00b\nc", "a b c"), ("x" * 13, "x" * 11 + "…"), ("", "")],
+)
+def test_names_are_one_short_line(name, text):
+    assert style.name_text(name, 12) == text

@@ -1,0 +1,72 @@
+"""The method's text: equations that survive rendering, and figures that the solver confirms."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import trackig_core as tig
+from dashboard import assets
+from trackig_core.asymptotes import PER_RESONANCE
+from trackig_core.relaxation import fit_loss_factor
+
+TEXT = assets.read_text(assets.METHOD)
+EQUATIONS = re.findall(r"^\$\$\n(.*?)\n\$\$$", TEXT, re.DOTALL | re.MULTILINE)
+
+
+def test_every_equation_stands_between_its_own_signs():
+    assert len(EQUATIONS) > 10
+    assert TEXT.count("$$") == 2 * len(EQUATIONS)
+    outside = re.sub(r"\$\$.*?\$\$", "", TEXT, flags=re.DOTALL)
+    assert "$" not in outside
+    assert "\\" not in outside
+
+
+@pytest.mark.parametrize("equation", EQUATIONS)
+def test_markdown_leaves_equations_alone(equation):
+    """Markdown eats a backslash before a sign, reads stars as stress, and paragraphs end at empty lines."""
+    assert not re.search(r"\\[^A-Za-z]", equation)
+    assert "*" not in equation
+    assert "\n\n" not in equation
+    assert equation.count("{") == equation.count("}")
+    assert equation.count(r"\left") == equation.count(r"\right")
+
+
+def test_no_html_is_meant():
+    assert not re.search(r"<[a-zA-Z/!]", TEXT)
+
+
+def test_its_figures_are_those_of_the_model():
+    law = fit_loss_factor(0.2)
+    assert f"{law.stiffness(5.0):.2f} of the stated stiffness at 5 Hz" in TEXT
+    assert f"{law.stiffness(500.0):.2f} of it at 500 Hz" in TEXT
+    worst = max(fit_loss_factor(float(loss)).worst_error for loss in np.linspace(0.05, 0.5, 10))
+    assert worst <= 0.051
+    blocks = [
+        math.sqrt((design.pad_stiffness + design.boot_stiffness) / design.block_mass) / (2 * math.pi)
+        for design in tig.PRESETS.values()
+        if design.two_stage
+    ]
+    assert "{:.0f}, {:.0f} and {:.0f} Hz".format(*blocks) in TEXT
+    assert f"{math.sqrt(1000):.0f} times too low" in TEXT
+    assert f"{-PER_RESONANCE:.0f} dB per octave down" in TEXT
+    assert f"{-2 * PER_RESONANCE:.0f} dB per octave above the second" in TEXT
+    wheel = tig.PRESETS["slab-track"]
+    assert math.sqrt(wheel.contact_stiffness / wheel.wheel_mass) / (2 * math.pi) == pytest.approx(180, abs=2)
+
+
+def test_its_polynomial_of_the_chain_has_the_chains_roots():
+    design = tig.PRESETS["booted-block-low-mass"].replace(pad_loss_factor=0.0, boot_loss_factor=0.0)
+    n = tig.effective_supports(design)
+    upper = 1 / (1 / design.contact_stiffness + 1 / (n * design.pad_stiffness))
+    for frequency in tig.lumped_frequencies(design).coupled:
+        x = (2 * math.pi * frequency) ** 2
+        left = (upper / design.wheel_mass - x) * (design.boot_stiffness / design.block_mass - x)
+        assert left == pytest.approx(upper / (n * design.block_mass) * x)
+
+
+def test_glossary_is_in_order():
+    terms = re.findall(r"^\| ([a-z][^|]*?) \|", TEXT.split("## Glossary")[1], re.MULTILINE)[1:]
+    assert len(terms) > 15
+    assert terms == sorted(terms)
