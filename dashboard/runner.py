@@ -84,6 +84,12 @@ def workers():
 
 
 @functools.cache
+def compiled():
+    """Return the future of the compiled kernels; the first call has them compiled, or read from disk."""
+    return workers().submit(tig.compile_kernels)
+
+
+@functools.cache
 def shared_store():
     """Return the store of pictures at rest that all sessions of this process share."""
     return SolutionStore(take_picture, workers(), CAPACITY)
@@ -202,6 +208,7 @@ class Runner:
         if self.outcome.picture is None or self.outcome.problem:
             self._publish(document, busy=True)
         try:
+            await self._wait_for_compiler(document)
             design = self.inputs.to_design()
             if self.outcome.picture is not None and self._store.kept((design, AT_REST)) is None:
                 await self._follow(design, document)
@@ -218,6 +225,14 @@ class Runner:
             self._publish(document, busy=False, progress=None, problem=STOPPED)
         except Exception as error:
             self._publish(document, busy=self._latest.pending, progress=None, problem=readable(error))
+
+    async def _wait_for_compiler(self, document):
+        if compiled().done():
+            return
+        self._publish(document, compiling=True)
+        with contextlib.suppress(Exception):  # whatever is wrong will be told by the solve that meets it
+            await asyncio.wrap_future(compiled())
+        self._publish(document, compiling=False)
 
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
@@ -312,8 +327,8 @@ def publish(outcome, document, **changes):
 
 def _apply(outcome, changes, document=None):
     try:
-        # all that a frame changes goes to the browser in one message
-        with pn.io.hold(document):
+        # all that a frame changes goes to the browser in one message; held before a page is loaded, it is lost
+        with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
             outcome.param.update(**changes)
     except Exception:
         log.exception("A solution could not be drawn")

@@ -338,6 +338,7 @@ class Outcome(param.Parameterized):
         class_=Picture, default=None, allow_None=True, doc="The preset's, while the design is modified."
     )
     busy = param.Boolean(default=False, doc="Whether a solution is awaited.")
+    compiling = param.Boolean(default=False, doc="Whether the solver is still being compiled.")
     progress = param.Number(
         default=None, bounds=(0, 1), allow_None=True, doc="Part of a long run that is done; None when short."
     )

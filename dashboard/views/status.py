@@ -33,7 +33,8 @@ class Status(Viewer):
         )
         self.stop = _button("Stop", "stop", on_stop)
         self.solve = _button("Solve", "play_arrow", on_solve)
-        outcome.param.watch(self._show, ["picture", "busy", "progress", "from_cache", "problem"])
+        shown = ["picture", "busy", "compiling", "progress", "from_cache", "problem"]
+        outcome.param.watch(self._show, shown)
         self._show()
 
     def _show(self, *_):
@@ -76,6 +77,9 @@ def status_html(outcome):
     return f'<div role="status" class="{kind}" title="{words}">{words}</div>'
 
 
+COMPILING = "Compiling the solver for this computer; it takes some seconds, at the first start only …"
+
+
 def status_words(outcome):
     """Return what an outcome has to say.
 
@@ -84,6 +88,8 @@ def status_words(outcome):
     outcome : Outcome
         How the solver fares.
     """
+    if outcome.compiling:
+        return COMPILING
     if outcome.progress is not None:
         return "Solving a long record …"
     if outcome.problem and not outcome.busy:

@@ -82,11 +82,12 @@ class FakeStore:
 
 def test_the_server_begins_with_the_opening_preset(monkeypatch):
     fake = FakeStore()
-    compiled = []
+    begun = []
     monkeypatch.setattr(app_hooks, "shared_store", lambda: fake)
-    monkeypatch.setattr(tig, "compile_kernels", lambda: compiled.append(True))
+    monkeypatch.setattr(app_hooks, "shared_live_store", lambda: fake)
+    monkeypatch.setattr(app_hooks, "compiled", lambda: begun.append(True))
     app_hooks.on_server_loaded(None)
-    assert compiled
+    assert begun
     assert fake.requested[0] == (tig.PRESETS["booted-block-low-mass"], AT_REST)
     assert {design for design, _ in fake.requested} == set(tig.PRESETS.values())
     app_hooks.on_server_unloaded(None)

@@ -2,6 +2,7 @@
 
 import asyncio
 import threading
+from concurrent.futures import Future
 
 import numpy as np
 import pytest
@@ -278,6 +279,32 @@ def test_following_waits_for_nobody_s_run_at_rest(make_store, gate):
 
     asyncio.run(follow())
     store.release(job)
+
+
+def test_while_the_solver_is_compiled_the_outcome_says_so(instant_store, monkeypatch):
+    compiler = Future()
+    monkeypatch.setattr(runner_module, "compiled", lambda: compiler)
+    session = Session(instant_store)
+
+    async def first_start():
+        session.runner.start()
+        await until(lambda: session.outcome.compiling)
+        assert session.outcome.picture is None
+        compiler.set_result(None)
+        await until(lambda: session.outcome.picture is not None)
+
+    asyncio.run(first_start())
+    assert not session.outcome.compiling
+
+
+def test_a_compiler_that_fails_leaves_it_to_the_solve_to_say_so(instant_store, monkeypatch):
+    compiler = Future()
+    compiler.set_exception(OSError("disk full"))
+    monkeypatch.setattr(runner_module, "compiled", lambda: compiler)
+    session = Session(instant_store)
+    session.do(session.runner.start)
+    assert session.outcome.picture is not None
+    assert not session.outcome.compiling
 
 
 def test_a_long_run_shows_its_progress_and_gives_way(make_store, gate, monkeypatch):

@@ -1,0 +1,121 @@
+"""How soon the curve follows the hand, and what a frame costs the server. Needs a browser, and quiet.
+
+Run with ``python -m pip install -e ".[dev]"`` and ``pytest tests/benchmarks/bench_dashboard.py``.
+"""
+
+import subprocess
+import sys
+import time
+import urllib.request
+
+import numpy as np
+import panel as pn
+import pytest
+from bokeh.document import Document
+from bokeh.protocol import Protocol
+
+import trackig_core as tig
+from dashboard.runner import MOVING, take_picture
+from dashboard.state import Outcome, Presentation
+from dashboard.views.explore import Explore
+from dashboard.views.status import Status
+from tests.browser.conftest import address, chromium, open_dashboard  # noqa: F401  (fixtures)
+
+OPENING = tig.PRESETS["booted-block-low-mass"]
+SLIDER = "Boot stiffness, kN/mm"
+POSITIONS = 30
+
+WATCH = """input => {
+    const source = Bokeh.documents[0].get_model_by_name("insertion_gain")
+    window.moves = []
+    window.draws = []
+    // a move is told by the value that the slider announces, a draw by the next painted frame
+    const moved = () => window.moves.push([performance.now(), input.getAttribute("aria-valuetext")])
+    new MutationObserver(moved).observe(input, {attributes: true, attributeFilter: ["aria-valuetext"]})
+    source.properties.data.change.connect(() => {
+        const level = Array.from(source.data.level)
+        const painted = () => window.draws.push([performance.now(), level])
+        requestAnimationFrame(() => requestAnimationFrame(painted))
+    })
+}"""
+
+
+def picture_of(design, fidelity):
+    return take_picture((design, fidelity), lambda *_: None, lambda: False)
+
+
+def test_a_frame_on_the_server(benchmark, tell):
+    """From a new picture to the message for the browser: figures patched, words changed, serialised."""
+    outcome = Outcome()
+    views = [Status(outcome, None, None), Explore(outcome, Presentation())]
+    document = Document()
+    pn.Column(*views).server_doc(document, location=False)
+    pictures = [picture_of(OPENING.replace(boot_stiffness=20e6 + 1e5 * k), MOVING) for k in range(20)]
+    events, number = [], 0
+    document.on_change(events.append)
+
+    def frame():
+        nonlocal number
+        events.clear()
+        number += 1
+        outcome.picture = pictures[number % len(pictures)]
+        Protocol().create("PATCH-DOC", events)
+
+    benchmark(frame)
+    tell(benchmark.stats["median"])
+
+
+@pytest.mark.browser
+def test_a_drag(open_dashboard, tell, remark):  # noqa: F811
+    """From the slider's value to the painted curve, over a drag of thirty positions."""
+    page = open_dashboard()
+    handle = page.get_by_role("slider", name=SLIDER)
+    latencies, frames = [], 0
+    for _ in range(3):
+        page.get_by_role("button", name="Back to Table 1").click(force=True)
+        page.wait_for_timeout(1500)
+        handle.evaluate(WATCH)
+        thumb = handle.locator("xpath=..")
+        thumb.hover()
+        corner = thumb.bounding_box()
+        x, y = corner["x"] + corner["width"] / 2, corner["y"] + corner["height"] / 2
+        page.mouse.down()
+        for position in range(1, POSITIONS + 1):
+            page.mouse.move(x + 3 * position, y)
+            page.wait_for_timeout(30)
+        page.mouse.up()
+        page.wait_for_timeout(1500)
+        moves, draws = page.evaluate("() => [window.moves, window.draws]")
+        live = {
+            value: tig.solve(OPENING.replace(boot_stiffness=float(value) * 1e6), "live").insertion_gain
+            for _, value in moves
+        }
+        announced = {value: when for when, value in moves}
+        for when, level in draws:
+            drawn = [value for value, levels in live.items() if np.abs(levels - level).max() < 1e-6]
+            if drawn:
+                latencies.append((when - announced[drawn[0]]) / 1000)
+                frames += 1
+        assert draws, "nothing was drawn"
+        last = tig.solve(OPENING.replace(boot_stiffness=float(moves[-1][1]) * 1e6)).insertion_gain
+        assert np.abs(np.array(draws[-1][1]) - last).max() < 1e-6, "a drag ends on the paper's run"
+    tell(float(np.median(latencies)), "slider to painted curve, median")
+    tell(float(np.percentile(latencies, 95)), "slider to painted curve, 95 of 100")
+    remark(f"drag: {frames} live frames for {3 * POSITIONS} positions")
+
+
+def test_first_page(tell):
+    """From the command to the first page, kernels in the cache on disk."""
+    began = time.perf_counter()
+    command = [sys.executable, "-m", "panel", "serve", "dashboard", "--port", "5077"]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as server:
+        try:
+            while time.perf_counter() - began < 60:
+                try:
+                    urllib.request.urlopen("http://127.0.0.1:5077/dashboard", timeout=30).read()
+                    break
+                except OSError:
+                    time.sleep(0.02)
+            tell(time.perf_counter() - began, "panel serve to first page")
+        finally:
+            server.terminate()
