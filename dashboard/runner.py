@@ -327,7 +327,8 @@ def publish(outcome, document, **changes):
 
 def _apply(outcome, changes, document=None):
     try:
-        # all that a frame changes goes to the browser in one message; held before a page is loaded, it is lost
+        # all that a frame changes goes to the browser in one message; before the page is loaded
+        # what is held would be lost
         with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
             outcome.param.update(**changes)
     except Exception:

@@ -29,6 +29,8 @@ WATCH = """input => {
     const source = Bokeh.documents[0].get_model_by_name("insertion_gain")
     window.moves = []
     window.draws = []
+    if (window.watching) return
+    window.watching = true
     // a move is told by the value that the slider announces, a draw by the next painted frame
     const moved = () => window.moves.push([performance.now(), input.getAttribute("aria-valuetext")])
     new MutationObserver(moved).observe(input, {attributes: true, attributeFilter: ["aria-valuetext"]})
