@@ -12,6 +12,7 @@ that it is given, the answer is exact.
 
 import numbers
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -136,31 +137,33 @@ class Waves:
             Receptance [m/N].
         """
         away = np.abs(np.asarray(support))[..., None, None]
-        if self.bays is not None:
-            away = away % self.bays
-        shape = self.multipliers**away
-        if self.bays is not None:
-            # waves that went round the ring the other way, and any number of times
-            shape = (shape + self.multipliers ** (self.bays - away)) / (1 - self.multipliers**self.bays)
+        if self.bays is None:
+            return np.sum(self.amplitudes * self.multipliers**away, axis=-2)
+        # waves that went round the ring the other way, and any number of times
+        away = away % self.bays
+        backwards = self.multipliers ** (self.bays - away) if away.any() else self.around
+        shape = (self.multipliers**away + backwards) / (1 - self.around)
         return np.sum(self.amplitudes * shape, axis=-2)
+
+    @cached_property
+    def around(self):
+        """Factor of each wave once around the ring (2, frequencies) [-]; zero on the infinite track."""
+        return np.zeros(()) if self.bays is None else self.multipliers**self.bays
 
     def energy_sum(self):
         """Return the sum over all supports of the squared receptance (frequencies,) [m2/N2]."""
-        first, second = (
-            self.amplitudes if self.bays is None else self.amplitudes / (1 - self.multipliers**self.bays)
-        )
+        first, second = self.amplitudes / (1 - self.around)
         pairs = np.abs(first) ** 2, np.abs(second) ** 2, 2 * first * second.conj()
-        here, there = self.multipliers
-        sums = (self._product_sum(*each) for each in ((here, here), (there, there), (here, there)))
+        sums = (self._product_sum(*each) for each in ((0, 0), (1, 1), (0, 1)))
         return np.real(sum(pair * total for pair, total in zip(pairs, sums, strict=True)))
 
-    def _product_sum(self, one, other):
-        """Return the sum over all supports of one wave's shape times the conjugate of the other's."""
-        other = other.conj()
+    def _product_sum(self, this, that):
+        """Return the sum over all supports of one wave's shape times the conjugate of another's."""
+        one, other = self.multipliers[this], self.multipliers[that].conj()
         if self.bays is None:
             return _two_sided(one * other)
         # shape at support s of the ring: m^s + m^(bays - s); four geometric sums, two of them alike
-        around, back = one**self.bays, other**self.bays
+        around, back = self.around[this], self.around[that].conj()
         apart = other - one
         equal = np.abs(apart) < 1e-9
         opposite = np.where(equal, self.bays * around / one, (back - around) / np.where(equal, 1.0, apart))

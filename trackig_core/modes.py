@@ -50,16 +50,18 @@ def natural_frequencies(design):
         Frequencies [Hz]; None where a single-stage track has no such mode.
     """
     if not design.two_stage:
-        loaded = loaded_track(design)
-        return NaturalFrequencies(loaded, None, loaded, None, cut_on(design))
+        waves_begin = cut_on(design)
+        loaded = loaded_track(design, waves_begin[0])
+        return NaturalFrequencies(loaded, None, loaded, None, waves_begin)
     rigid_blocks = design.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
     _, boot = laws(design)
+    waves_begin = cut_on(design)
     return NaturalFrequencies(
-        loaded_track=loaded_track(design),
+        loaded_track=loaded_track(design, waves_begin[0]),
         coupled_block=coupled_block(design),
         wheel_on_rigid_blocks=loaded_track(rigid_blocks),
         block_on_boot=_oscillator(design.block_mass, boot),
-        cut_on=cut_on(design),
+        cut_on=waves_begin,
     )
 
 
@@ -155,7 +157,7 @@ def consistent(natural, laws):
     return brentq(lambda f: f - natural([law.stiffness(f) for law in laws]), low, high, xtol=1e-9)
 
 
-def loaded_track(design):
+def loaded_track(design, straight_rail=None):
     """Return the bound mode of the wheel on the supported rail.
 
     The lowest root of 1/k_H + alpha(f) - 1/(m_w w^2) = 0, with alpha the point receptance over a
@@ -166,6 +168,8 @@ def loaded_track(design):
     ----------
     design : TrackDesign
         The track and its wheel.
+    straight_rail : float, optional
+        The lower of its :func:`cut_on` frequencies, if it is known already [Hz].
 
     Returns
     -------
@@ -178,7 +182,7 @@ def loaded_track(design):
         wheel = -1 / (design.wheel_mass * (2 * math.pi * frequency) ** 2)
         return 1 / design.contact_stiffness + support.receptance(frequency) + wheel
 
-    waves_begin = support.waves_begin(cut_on(design)[0])
+    waves_begin = support.waves_begin(straight_rail or cut_on(design)[0])
     top = waves_begin * (1 - _EDGE)
     if balance(top) <= 0:  # a wheel so light that its mode cannot be told from the cut-on
         return waves_begin
