@@ -140,6 +140,9 @@ HIDDEN_LABEL = {
 }
 """A box whose label only screen readers meet, the slider beside it showing the same words."""
 
+LEFT_ALIGNED = {"& input": {"padding": "5px 8px", "textAlign": "left"}}
+"""The same for words."""
+
 SIDEBAR_WIDTH = 330
 STATUS_HEIGHT = 32
 FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
@@ -165,6 +168,31 @@ select.bk-input option { color: var(--panel-on-background-color); background: va
 """
 """The browser's own select, legible from afar; its arrow follows the theme."""
 
+CHECKS_CSS = """
+label { font-size: 15px; margin-right: 14px; color: var(--panel-on-background-color); }
+"""
+DRAWING_CSS = """
+:host { color: var(--panel-on-background-color); }
+svg { display: block; width: 100%; height: max(440px, calc(100vh - 200px)); }
+"""
+SWATCH_CSS = ".swatch { display: block; }"
+
+TABLE_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+.scroll { overflow-x: auto; padding: 0 12px 10px 12px; }
+table { border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }
+caption { text-align: left; font-size: 14px; padding-bottom: 4px; }
+th, td { padding: 4px 12px; text-align: right; vertical-align: top; }
+td, tbody th { border-top: 1px solid rgba(128, 128, 128, 0.3); }
+th[scope="row"], th[scope="rowgroup"], thead th:first-child { text-align: left; white-space: nowrap; }
+th[scope="row"] { font-weight: 400; }
+thead th { max-width: 150px; overflow-wrap: anywhere; }
+.group th { padding-top: 12px; }
+.swatch { display: block; margin-left: auto; }
+.name { display: block; }
+.difference { display: block; font-size: 14px; font-weight: 400; opacity: 0.8; }
+"""
+
 SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
 """A slider marks the preset's value with a tick."""
 
@@ -173,8 +201,13 @@ PANEL = {"borderRadius": "8px", "height": "100%"}
 PANEL_TITLE = {"fontWeight": 700}
 
 
+FIGURE_TEXT = "clamp(16px, 1.4vw, 20px)"
+"""Text of figures: to be read from the back row, and 21 bands side by side on a laptop."""
+
+
 def _figure_css(height):
-    return f":host {{ flex: none !important; height: {height} !important; }}"
+    # the theme sizes all text of figures relative to this
+    return f":host {{ flex: none !important; height: {height} !important; font-size: {FIGURE_TEXT}; }}"
 
 
 TALL = _figure_css("max(300px, calc(53vh - 150px))")

@@ -7,6 +7,7 @@ import param
 import pytest
 
 import trackig_core as tig
+from dashboard.curves import PinnedCurves
 from dashboard.pins import Pins
 from dashboard.state import Outcome, Presentation
 from dashboard.style import duration_text
@@ -27,7 +28,9 @@ class Pictures(param.Parameterized):
 
 
 def explore(outcome, presentation, pins=None, pinned=None):
-    return Explore(outcome, presentation, pins or Pins(), pinned or Pictures())
+    """Return the view, with pins and pictures of theirs if a test gives them."""
+    pins = pins or Pins()
+    return Explore(outcome, presentation, pins, PinnedCurves(pins, pinned or Pictures(), presentation))
 
 
 def test_the_status_follows_a_solve(outcome, picture):
