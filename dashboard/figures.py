@@ -254,6 +254,12 @@ MOST_CURVES = len(style.DESIGN_COLOURS)
 def new_legend(plot, location):
     """Return a figure's legend, empty as yet; it is made first, so that curves are drawn behind it."""
     legend = Legend(items=[], location=location)
+    keep(
+        legend,
+        label_text_font_size=style.TICK_SIZES,
+        glyph_width=(style.LEGEND_LINE, style.LEGEND_LINE),
+        background_fill_alpha=(style.LEGEND_ALPHA, style.LEGEND_ALPHA),
+    )
     plot.add_layout(legend)
     return legend
 
@@ -661,4 +667,19 @@ def blank_figure(aria_label="", **options):
     )
     plot.toolbar.logo = None
     plot.toolbar.autohide = True
+    for axis in plot.axis:
+        keep(axis, major_label_text_font_size=style.TICK_SIZES, axis_label_text_font_size=style.AXIS_SIZES)
     return plot
+
+
+def keep(model, **looks):
+    """Keep looks of a model that the page's theme would change, each for narrow and for wide windows."""
+    for name, (narrow, wide) in looks.items():
+        setattr(model, name, wide)
+        model.js_on_change(name, CustomJS(args={"name": name, "narrow": narrow, "wide": wide}, code=KEEP))
+
+
+KEEP = f"""
+    const wanted = window.innerWidth < {style.NARROW_WINDOW} ? narrow : wide
+    if (cb_obj[name] !== wanted) {{ cb_obj.setv({{[name]: wanted}}, {{sync: false}}) }}
+"""

@@ -75,6 +75,15 @@ PINNED_LINE_WIDTH = 2.5
 LIMIT_LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
 FAILING_SIZE = "18px"
+NARROW_WINDOW = 1200
+"""Width below which a window has no room for 21 bands in large figures [px]."""
+
+TICK_SIZES, AXIS_SIZES = ("14px", "17px"), ("15px", "17px")
+"""Text at the ticks and beside the axes, in narrow windows and in wide ones."""
+
+LEGEND_LINE, LEGEND_ALPHA = 40, 0.75
+"""Length of a legend's lines, long enough for any dash [px], and how little is seen through it."""
+
 LEGEND_ROWS = 5
 """Entries of a legend in one column; more make two."""
 
@@ -140,7 +149,10 @@ HIDDEN_LABEL = {
 }
 """A box whose label only screen readers meet, the slider beside it showing the same words."""
 
-LEFT_ALIGNED = {"& input": {"padding": "5px 8px", "textAlign": "left"}}
+LEFT_ALIGNED = {
+    "& input": {"padding": "5px 8px", "textAlign": "left"},
+    "& input::placeholder": {"opacity": "0.7 !important"},
+}
 """The same for words."""
 
 SIDEBAR_WIDTH = 330
@@ -169,6 +181,7 @@ select.bk-input option { color: var(--panel-on-background-color); background: va
 """The browser's own select, legible from afar; its arrow follows the theme."""
 
 CHECKS_CSS = """
+.bk-input-group { flex-wrap: wrap; }
 label { font-size: 15px; margin-right: 14px; color: var(--panel-on-background-color); }
 """
 DRAWING_CSS = """
@@ -201,13 +214,8 @@ PANEL = {"borderRadius": "8px", "height": "100%"}
 PANEL_TITLE = {"fontWeight": 700}
 
 
-FIGURE_TEXT = "clamp(16px, 1.4vw, 20px)"
-"""Text of figures: to be read from the back row, and 21 bands side by side on a laptop."""
-
-
 def _figure_css(height):
-    # the theme sizes all text of figures relative to this
-    return f":host {{ flex: none !important; height: {height} !important; font-size: {FIGURE_TEXT}; }}"
+    return f":host {{ flex: none !important; height: {height} !important; }}"
 
 
 TALL = _figure_css("max(300px, calc(53vh - 150px))")

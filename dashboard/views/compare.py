@@ -22,6 +22,9 @@ FEW_BANDS = ("16", "31.5", "63", "125", "250")
 HAND_NAME = "this\N{NO-BREAK SPACE}design"
 """What the design at hand is called; no pin can be called so, since names hold no such space."""
 
+HAND = 0
+"""Stands for the design at hand where keys of pins are chosen from, which count from 1."""
+
 
 class Compare(Viewer):
     """List of pins, difference from a base, and a table side by side.
@@ -59,7 +62,7 @@ class Compare(Viewer):
         )
         self.base = pn.widgets.Select(
             label="Differences from",
-            options={HAND_NAME: None},
+            options={HAND_NAME: HAND},
             width=CHOICE_WIDTH,
             margin=(0, 12, 4, 12),
             stylesheets=[style.SELECT_CSS],
@@ -69,6 +72,7 @@ class Compare(Viewer):
             options=list(tig.BAND_LABELS),
             value=list(FEW_BANDS),
             inline=True,
+            sizing_mode="stretch_width",
             margin=(0, 12, 4, 12),
             stylesheets=[style.CHECKS_CSS],
         )
@@ -103,12 +107,11 @@ class Compare(Viewer):
             self._on_figure_2()
 
     def _offer_bases(self, *_):
-        options = {HAND_NAME: None} | {pin.name: pin.key for pin in self._pins.pinned}
-        self.base.param.update(options=options, value=self._pins.base)
+        options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
+        self.base.param.update(options=options, value=self._pins.base or HAND)
 
     def _choose_base(self, event):
-        if event.new != self._pins.base:
-            self._pins.choose_base(event.new)
+        self._pins.choose_base(event.new or None)
 
     def _show(self, *_):
         picture = self._outcome.picture

@@ -40,7 +40,7 @@ class DesignBar(Viewer):
         self.redo = pmui.Button(
             label="Redo", icon="redo", description="Ctrl+Y or Ctrl+Shift+Z", on_click=self._redo, **STEP
         )
-        self.name = pmui.TextInput(
+        self.name_box = pmui.TextInput(
             label="Name of the design to be pinned",
             placeholder="Name (optional)",
             max_length=LONGEST_NAME,
@@ -86,18 +86,18 @@ class DesignBar(Viewer):
         inputs = self._inputs
         usual = "" if inputs.modified else PRESET_LABELS[inputs.preset]
         try:
-            pin = self._pins.add(inputs.to_values(), self.name.value or usual)
+            pin = self._pins.add(inputs.to_values(), self.name_box.value or usual)
         except PinError as problem:
             tell(problem)
             return
-        self.name.value = ""
+        self.name_box.value = ""
         if pn.state.notifications is not None:
             pn.state.notifications.success(f"Pinned as “{pin.name}”. See the tab Compare.", duration=3000)
 
     def __panel__(self):
         """Return what is put on the page."""
         return pmui.Column(
-            pmui.Row(self.name, self.pin, sizing_mode="stretch_width", margin=(0, 12, 0, 16)),
+            pmui.Row(self.name_box, self.pin, sizing_mode="stretch_width", margin=(0, 12, 0, 16)),
             pmui.Row(self.undo, self.redo, sizing_mode="stretch_width", margin=(2, 12, 0, 8)),
             sizing_mode="stretch_width",
             margin=(6, 0, 0, 0),

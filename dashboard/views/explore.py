@@ -40,6 +40,15 @@ class Explore(Viewer):
         self.fidelity = pmui.Chip(
             label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
         )
+        self.show_hand = pmui.Button(
+            label="Show this design",
+            icon="visibility",
+            size="small",
+            variant="outlined",
+            visible=pins.param.alone,
+            on_click=lambda _: pins.param.update(alone=False),
+            margin=(2, 0, 0, 10),
+        )
         self.choices = [
             pn.widgets.Select.from_param(
                 parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[style.SELECT_CSS]
@@ -95,6 +104,7 @@ class Explore(Viewer):
             pmui.Row(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
+                self.show_hand,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
@@ -152,7 +162,7 @@ def bokeh_pane(model):
 
 def gain_axis(presentation):
     """Return what the insertion gain's axis is called, the choice named in it."""
-    return f"Insertion gain, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
+    return f"IG, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
 
 
-SUMMATION_AXIS = {"energy": "summed energy", "coherent": "coherent force"}
+SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}

@@ -38,7 +38,7 @@ class PinRow(Viewer):
         super().__init__()
         self._inputs, self._pins, self._key = inputs, pins, key
         self.swatch = pn.pane.HTML("", width=36, margin=(10, 4, 0, 4), stylesheets=[style.SWATCH_CSS])
-        self.name = pmui.TextInput(
+        self.name_box = pmui.TextInput(
             label="Name of the design",
             max_length=LONGEST_NAME,
             size="small",
@@ -49,17 +49,21 @@ class PinRow(Viewer):
             margin=(4, 4, 0, 0),
         )
         self.colour = pn.widgets.Select(
-            options=COLOURS, width=112, margin=(2, 4, 0, 4), stylesheets=[style.SELECT_CSS]
+            label="Colour",
+            options=COLOURS,
+            width=116,
+            margin=(0, 4, 0, 4),
+            stylesheets=[style.SELECT_CSS],
         )
         self.shown = pmui.Checkbox(label="Show", margin=(0, 4, 0, 4), size="small")
         self.use = pmui.Button(label="Use", on_click=self._use, **BUTTON)
         self.remove = pmui.Button(label="Remove", on_click=lambda _: pins.remove(key), **BUTTON)
         self.show(pins[key])
-        self.name.param.watch(self._rename, "value")
+        self.name_box.param.watch(self._rename, "value")
         self.colour.param.watch(self._recolour, "value")
         self.shown.param.watch(self._show_or_hide, "value")
         self._row = pmui.Row(
-            *(self.swatch, self.name, self.colour, self.shown, self.use, self.remove),
+            *(self.swatch, self.name_box, self.colour, self.shown, self.use, self.remove),
             sizing_mode="stretch_width",
             margin=(0, 8, 0, 8),
         )
@@ -67,7 +71,7 @@ class PinRow(Viewer):
     def show(self, pin):
         """Show the pin as it stands."""
         self.swatch.object = swatch_svg(pin.colour_code, pin.dash)
-        self.name.param.update(value=pin.name, error_state=False, helper_text="")
+        self.name_box.param.update(value=pin.name, error_state=False, helper_text="")
         self.colour.value, self.shown.value = pin.colour, pin.shown
 
     def _rename(self, event):
@@ -76,7 +80,7 @@ class PinRow(Viewer):
         try:
             self._pins.rename(self._key, event.new)
         except PinError as problem:
-            self.name.param.update(error_state=True, helper_text="not taken")
+            self.name_box.param.update(error_state=True, helper_text="not taken")
             tell(problem)
 
     def _recolour(self, event):

@@ -168,7 +168,7 @@ def test_the_choice_of_sum_and_reference_redraws_without_solving(outcome, pictur
         for column, name in (("level", "booted-sleeper"), ("preset", "slab-track")):
             expected = tig.solve(tig.PRESETS[name], **chosen).insertion_gain
             np.testing.assert_allclose(view.insertion_gain.bands.data[column], expected, atol=1e-9)
-    assert view.insertion_gain.model.yaxis.axis_label == "Insertion gain, dB (coherent force / rigid)"
+    assert view.insertion_gain.model.yaxis.axis_label == "IG, dB (coherent / rigid)"
 
 
 def test_observed_frequencies_stand_beside_the_computed_ones(picture):
