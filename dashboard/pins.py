@@ -89,6 +89,10 @@ class Pins(param.Parameterized):
         doc="Key of the pin from which differences are taken; None: the design at hand.",
     )
 
+    alone = param.Boolean(
+        default=False, doc="Whether insertion gain is drawn of the pins alone, not of the design at hand."
+    )
+
     _latest_key = 0
 
     def __getitem__(self, key):
@@ -147,6 +151,20 @@ class Pins(param.Parameterized):
         there = [pin.design for pin in self.pinned]
         missing = [key for key, design in tig.PRESETS.items() if design not in there]
         return self.add_all((preset_values(key), PRESET_LABELS[key]) for key in missing)
+
+    def show_table_1(self):
+        """Draw the paper's four tracks and nothing else, pinning those that are missing: its Figure 2.
+
+        Raises
+        ------
+        PinError
+            If there is no room for them; then nothing has changed.
+        """
+        with param.parameterized.batch_call_watchers(self):
+            self.add_table_1()
+            published = set(tig.PRESETS.values())
+            self.pinned = tuple(replace(pin, shown=pin.design in published) for pin in self.pinned)
+            self.alone = True
 
     def add_all(self, designs):
         """Pin several designs as one change: all of them or none.

@@ -21,19 +21,33 @@ class Explore(Viewer):
         Whose picture is shown.
     presentation : Presentation
         How its insertion gain is reckoned.
+    pins : Pins
+        Pinned designs, which are drawn behind it.
+    curves : PinnedCurves
+        What is drawn of them.
     """
 
     title = "Explore"
 
-    def __init__(self, outcome, presentation):
+    def __init__(self, outcome, presentation, pins, curves):
         super().__init__()
         self._outcome, self._presentation = outcome, presentation
+        self._pins, self._curves = pins, curves
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
         self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
             label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
+        )
+        self.show_hand = pmui.Button(
+            label="Show this design",
+            icon="visibility",
+            size="small",
+            variant="outlined",
+            visible=pins.param.alone,
+            on_click=lambda _: pins.param.update(alone=False),
+            margin=(2, 0, 0, 10),
         )
         self.choices = [
             pn.widgets.Select.from_param(
@@ -44,12 +58,20 @@ class Explore(Viewer):
         outcome.param.watch(self._show, ["picture", "preset_picture"])
         outcome.param.watch(self._dim, ["problem", "progress"])
         presentation.param.watch(self._show_gain, ["reference", "summation"])
-        self._show()
+        pins.param.watch(self._show_gain, "alone")
+        curves.param.watch(self._show_all, ["gains", "forces"])
+        self._show_all()
 
     def _show(self, *events):
+        if any(event.name == "picture" for event in events):
+            self._show_all()
+        else:
+            self._show_gain()
+
+    def _show_all(self, *_):
         picture = self._outcome.picture
-        if picture is not None and (not events or any(event.name == "picture" for event in events)):
-            self.force.show(picture)
+        if picture is not None:
+            self.force.show(picture, self._curves.forces)
             self._name_fidelity(picture.solution.fidelity)
         self._show_gain()
 
@@ -67,6 +89,8 @@ class Explore(Viewer):
             chosen.levels(picture.solution),
             None if preset is None else chosen.levels(preset.solution),
             picture.solution.natural_frequencies,
+            curves=self._curves.gains,
+            alone=self._pins.alone,
         )
 
     def _dim(self, *_):
@@ -80,6 +104,7 @@ class Explore(Viewer):
             pmui.Row(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
+                self.show_hand,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
@@ -137,7 +162,7 @@ def bokeh_pane(model):
 
 def gain_axis(presentation):
     """Return what the insertion gain's axis is called, the choice named in it."""
-    return f"Insertion gain, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
+    return f"IG, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
 
 
-SUMMATION_AXIS = {"energy": "summed energy", "coherent": "coherent force"}
+SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}
