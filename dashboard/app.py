@@ -13,6 +13,8 @@ from panel.util import edit_readonly
 from dashboard import style
 from dashboard.checker import Checker
 from dashboard.controls import Controls
+from dashboard.pinned import PinnedPictures
+from dashboard.pins import Pins
 from dashboard.runner import Runner, shared_live_store, shared_store
 from dashboard.state import DesignInputs, Outcome, Presentation
 from dashboard.views.explore import Explore
@@ -46,11 +48,15 @@ def build(store=None, live_store=None):
     """
     pn.extension(notifications=True, reconnect=True, exception_handler=tell)
     inputs, outcome, presentation = DesignInputs(), Outcome(), Presentation()
-    runner = Runner(inputs, outcome, store or shared_store(), live_store or shared_live_store())
+    store = store or shared_store()
+    runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
     Checker(outcome)
+    pins = Pins()
+    pinned = PinnedPictures(pins, store)
     pn.state.on_session_destroyed(runner.close)
-    views = [Explore(outcome, presentation), Verify(outcome, presentation)]
+    pn.state.on_session_destroyed(pinned.close)
+    views = [Explore(outcome, presentation, pins, pinned), Verify(outcome, presentation)]
     return page(Controls(inputs), Status(outcome, runner.stop, runner.solve_again), tabs(outcome, views))
 
 

@@ -9,8 +9,10 @@ would leave them, or would fill less than half.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+from bokeh.core.properties import value
 from bokeh.events import RangesUpdate
 from bokeh.models import (
     BoxZoomTool,
@@ -21,6 +23,8 @@ from bokeh.models import (
     FixedTicker,
     HoverTool,
     Label,
+    Legend,
+    LegendItem,
     PanTool,
     Range1d,
     ResetTool,
@@ -33,6 +37,7 @@ from tsdownsample import MinMaxDownsampler
 
 import trackig_core as tig
 from dashboard import style
+from trackig_core.specification import TOLD_APART
 
 LEVEL_STEP = 5.0
 """Grid of the ends of the level axis [dB]."""
@@ -217,6 +222,70 @@ NO_LABEL = "\N{NO-BREAK SPACE}"
 """Keeps a label's row free, so that the frame stays put."""
 
 
+class Curve(NamedTuple):
+    """What is drawn of a pinned design.
+
+    Attributes
+    ----------
+    name : str
+        What it is called: text of a user's, which no figure takes for markup.
+    drawn : numpy.ndarray (21,) or Picture
+        Insertion gain [dB], or the picture whose total force is drawn.
+    colour : str
+        Its colour in every plot.
+    dash : sequence of int
+        Its dash in every plot [px]; empty: solid.
+    """
+
+    name: str
+    drawn: object
+    colour: str
+    dash: tuple
+
+
+class _PinnedLines:
+    """Lines for as many pinned designs as there can be, each with its entry in the legend."""
+
+    def __init__(self, plot, sources, x, columns):
+        self.lines = [
+            plot.line(
+                x=x, y=column, source=source, line_width=style.PINNED_LINE_WIDTH, line_alpha=1, visible=False
+            )
+            for source, column in zip(sources, columns, strict=True)
+        ]
+        self.entries = [LegendItem(label=value(NO_LABEL), renderers=[line]) for line in self.lines]
+
+    def show(self, curves):
+        """Give as many lines as there are curves their names, colours and dashes, and hide the rest."""
+        for line, entry, curve in zip(self.lines, self.entries, curves, strict=False):
+            line.glyph.update(line_color=curve.colour, line_dash=list(curve.dash))
+            entry.label = value(curve.name)
+        for place, line in enumerate(self.lines):
+            line.visible = place < len(curves)
+
+    @property
+    def shown_entries(self):
+        """Entries of the lines that are drawn."""
+        return [entry for entry, line in zip(self.entries, self.lines, strict=True) if line.visible]
+
+
+MOST_CURVES = len(style.DESIGN_COLOURS)
+"""Pinned designs that a figure can draw: one for each colour."""
+
+
+def _legend(plot, location):
+    """Return a figure's legend, empty as yet; it is made first, so that curves are drawn behind it."""
+    legend = Legend(items=[], location=location)
+    plot.add_layout(legend)
+    return legend
+
+
+def _list_in(legend, entries):
+    """List in a legend what is drawn, in two columns when one would be long."""
+    if entries != legend.items:
+        legend.update(items=entries, ncols=1 if len(entries) <= style.LEGEND_ROWS else 2)
+
+
 class InsertionGainFigure:
     """Insertion gain per one-third-octave band, with the natural frequencies marked.
 
@@ -227,11 +296,19 @@ class InsertionGainFigure:
     bands : bokeh.models.ColumnDataSource
         Named ``insertion_gain``: per band its ``label``, ``centre``, ``left`` and ``right`` edge [Hz], the
         ``level`` of the design and that of its ``preset`` [dB], NaN when there is none to compare with.
+    pins : bokeh.models.ColumnDataSource
+        Named ``pins``: per band its ``label``, its ``centre`` [Hz] and levels ``pin_0`` to ``pin_7`` [dB],
+        NaN when there are not so many.
+    limit : bokeh.models.ColumnDataSource
+        Named ``limit``: per band its edges, the required ``limit`` [dB], ``before``, that of the band to the
+        left, and ``failing``, the level of the design where it exceeds the limit; NaN where there is none.
     """
 
     def __init__(self):
-        nothing = np.full(tig.BAND_CENTRES.size, np.nan)
-        self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(nothing, nothing))
+        self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
+        self.pins = ColumnDataSource(name="pins", data=_pin_columns(()))
+        self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
+        self._curves = ()
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
             name="insertion_gain_figure",
@@ -249,7 +326,8 @@ class InsertionGainFigure:
         plot = self.model
         show_bands(plot)
         plot.add_layout(zero_line())
-        plot.quad(
+        self._legend = _legend(plot, "bottom_left")
+        self._fill = plot.quad(
             left="left",
             right="right",
             bottom=0,
@@ -259,34 +337,71 @@ class InsertionGainFigure:
             fill_alpha=style.FILL_ALPHA,
             line_color=None,
         )
+        self._draw_limit()
+        names = [f"pin_{place}" for place in range(MOST_CURVES)]
+        self._pinned = _PinnedLines(plot, [self.pins] * MOST_CURVES, "centre", names)
         shared = {"source": self.bands, "x": "centre"}
-        plot.line(
+        self._ghost = plot.line(
             y="preset",
             line_color=style.PRESET_GHOST,
             line_width=style.THIN_LINE_WIDTH,
             line_dash="dashed",
-            legend_label="as in Table 1",
             **shared,
         )
-        self._preset_entry = plot.legend[0].items[0]
-        plot.line(
-            y="level",
-            line_color=style.THIS_DESIGN,
-            line_width=style.LINE_WIDTH,
-            legend_label="this design",
-            **shared,
+        self._line = plot.line(y="level", line_color=style.THIS_DESIGN, line_width=style.LINE_WIDTH, **shared)
+        self._dots = plot.scatter(y="level", color=style.THIS_DESIGN, size=style.DOT_SIZE, **shared)
+        pinned = CustomJSHover(args={"pins": self.pins}, code=PIN_HOVER)
+        self._hover = HoverTool(
+            renderers=[self._dots], mode="vline", tooltips=TOOLTIPS, formatters={"@centre": pinned}
         )
-        dots = plot.scatter(y="level", color=style.THIS_DESIGN, size=style.DOT_SIZE, **shared)
-        tooltips = [("band", "@label Hz"), ("this design", "@level_text"), ("as in Table 1", "@preset_text")]
-        plot.add_tools(HoverTool(renderers=[dots], mode="vline", tooltips=tooltips))
-        plot.legend.location = "bottom_left"
+        plot.add_tools(self._hover)
+        self._entries = {
+            words: LegendItem(label=value(words), renderers=renderers)
+            for words, renderers in (
+                ("this design", [self._line, self._dots]),
+                ("as in Table 1", [self._ghost]),
+                ("required maximum", [self._limit_line]),
+                ("exceeds it", [self._failing]),
+            )
+        }
+
+    def _draw_limit(self):
+        plot, colour = self.model, style.SPECIFICATION
+        steps = {"source": self.limit, "line_color": colour, "line_width": style.LIMIT_LINE_WIDTH}
+        self._limit_line = plot.segment(x0="left", x1="right", y0="limit", y1="limit", **steps)
+        plot.segment(x0="left", x1="left", y0="before", y1="limit", **steps)
+        self._failing = plot.quad(
+            left="left",
+            right="right",
+            bottom="limit",
+            top="failing",
+            source=self.limit,
+            fill_color=None,
+            line_color=colour,
+            line_width=style.THIN_LINE_WIDTH,
+            hatch_pattern="right_diagonal_line",
+            hatch_color=colour,
+            hatch_weight=2,
+            hatch_scale=10,
+        )
+        plot.text(
+            x="centre",
+            y="failing",
+            source=self.limit,
+            text=value("✗"),
+            text_align="center",
+            text_baseline="bottom",
+            text_color=colour,
+            text_font_size=style.FAILING_SIZE,
+            y_offset=-3,
+        )
 
     def name_axis(self, words):
         """Say on the axis which insertion gain is drawn."""
         self.model.yaxis.axis_label = words
 
-    def show(self, levels, preset_levels, natural):
-        """Draw insertion gain, and behind it that of the preset it departs from.
+    def show(self, levels, preset_levels, natural, curves=(), limit=None, alone=False):
+        """Draw insertion gain, and behind it that of the preset it departs from and of pinned designs.
 
         Parameters
         ----------
@@ -296,14 +411,71 @@ class InsertionGainFigure:
             What it is compared with [dB].
         natural : trackig_core.NaturalFrequencies
             What is marked.
+        curves : tuple of Curve
+            Up to eight pinned designs; the same tuple again is not sent again.
+        limit : numpy.ndarray (21,) or None
+            Greatest insertion gain allowed [dB], NaN in bands that have no limit.
+        alone : bool
+            Whether the curves stand alone: then of the design at hand nothing is drawn.
         """
-        preset = np.full_like(levels, np.nan) if preset_levels is None else preset_levels
-        seen = np.concatenate([levels, preset[np.isfinite(preset)], LEAST_LEVELS])
-        self._levels.show(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM, LEVEL_STEP)
+        preset = NO_LEVELS if preset_levels is None or alone else preset_levels
+        limit = NO_LEVELS if limit is None else limit
         self.bands.data = _band_columns(levels, preset)
-        self._preset_entry.visible = preset_levels is not None
-        self._loaded_track.show(natural.loaded_track)
-        self._coupled_block.show(natural.coupled_block)
+        self.limit.data = _limit_columns(limit, NO_LEVELS if alone else levels)
+        for part in (self._fill, self._line, self._dots):
+            part.visible = not alone
+        self._loaded_track.show(None if alone else natural.loaded_track)
+        self._coupled_block.show(None if alone else natural.coupled_block)
+        self._show_curves(curves)
+        self._tell(curves, alone)
+        self._list_what_is_drawn()
+        seen = [
+            NO_LEVELS if alone else levels,
+            preset,
+            limit,
+            *(curve.drawn for curve in curves),
+            LEAST_LEVELS,
+        ]
+        every = np.concatenate(seen)
+        self._levels.show(np.nanmin(every) - LEVEL_ROOM, np.nanmax(every) + LEVEL_ROOM, LEVEL_STEP)
+
+    def _show_curves(self, curves):
+        if curves is self._curves:
+            return
+        self._curves = curves
+        self.pins.data = _pin_columns(curves)
+        self._pinned.show(curves)
+
+    def _tell(self, curves, alone):
+        """Tell what is drawn when the pointer rests on a band."""
+        tooltips = ALONE_TOOLTIPS if alone else TOOLTIPS
+        self._hover.update(
+            renderers=[self._pinned.lines[0] if alone else self._dots],
+            tooltips=tooltips + [(curve.name, f"@centre{{{place}}}") for place, curve in enumerate(curves)],
+        )
+
+    def _list_what_is_drawn(self):
+        data, limit = self.bands.data, self.limit.data
+        drawn = {
+            "this design": self._line.visible,
+            "as in Table 1": np.isfinite(data["preset"]).any(),
+            "required maximum": np.isfinite(limit["limit"]).any(),
+            "exceeds it": np.isfinite(limit["failing"]).any(),
+        }
+        entries = [entry for words, entry in self._entries.items() if drawn[words]]
+        _list_in(self._legend, entries + self._pinned.shown_entries)
+
+
+NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
+NO_LEVELS.flags.writeable = False
+
+ALONE_TOOLTIPS = [("band", "@label Hz")]
+TOOLTIPS = [*ALONE_TOOLTIPS, ("this design", "@level_text"), ("as in Table 1", "@preset_text")]
+
+PIN_HOVER = """
+    const level = pins.data["pin_" + format][special_vars.index]
+    return (level < 0 ? "\u2212" : "+") + Math.abs(level).toFixed(1) + " dB"
+"""
 
 
 def _band_columns(levels, preset):
@@ -319,6 +491,26 @@ def _band_columns(levels, preset):
     }
 
 
+def _pin_columns(curves):
+    missing = MOST_CURVES - len(curves)
+    levels = [curve.drawn for curve in curves] + [NO_LEVELS] * missing
+    columns = {f"pin_{place}": each for place, each in enumerate(levels)}
+    return {"label": list(tig.BAND_LABELS), "centre": tig.BAND_CENTRES, **columns}
+
+
+def _limit_columns(limit, levels):
+    # comparing with NaN is false, as it is meant to be
+    exceeded = levels - limit > TOLD_APART
+    return {
+        "centre": tig.BAND_CENTRES,
+        "left": tig.BAND_EDGES[:-1],
+        "right": tig.BAND_EDGES[1:],
+        "limit": limit,
+        "before": np.concatenate([[np.nan], limit[:-1]]),
+        "failing": np.where(exceeded, levels, np.nan),
+    }
+
+
 class ForceFigure:
     """Force into the ground over time, under the loaded support and summed over all.
 
@@ -328,9 +520,16 @@ class ForceFigure:
         The figure.
     samples : bokeh.models.ColumnDataSource
         Named ``force``: ``time`` [s], ``loaded_support`` and ``total`` [kN].
+    pins : list of bokeh.models.ColumnDataSource
+        Named ``pinned_force_0`` to ``pinned_force_7``: ``time`` [s] and ``total`` [kN] of pinned designs,
+        whose records differ in length.
     """
 
     def __init__(self):
+        self.pins = [
+            ColumnDataSource(name=f"pinned_force_{place}", data={"time": [], "total": []})
+            for place in range(MOST_CURVES)
+        ]
         self.samples = ColumnDataSource(name="force", data={"time": [], "loaded_support": [], "total": []})
         self._forces = AxisEnds((-1.0, 1.0))
         self.model = blank_figure(
@@ -341,7 +540,7 @@ class ForceFigure:
             y_axis_label="Force into the ground, kN",
             stylesheets=[style.LOW],
         )
-        self._picture = None
+        self._picture, self._curves = None, ()
         self._count_time_as_zoom_asks()
         self._draw_forces()
         self.model.on_event(RangesUpdate, self._zoomed)
@@ -355,59 +554,83 @@ class ForceFigure:
 
     def _draw_forces(self):
         plot = self.model
-        for column, words, colour, dash in (
-            ("total", "all supports", style.THIS_DESIGN, "solid"),
-            ("loaded_support", "support under the wheel", style.LOADED_TRACK, style.SECOND_DASH),
-        ):
-            line = plot.line(
-                x="time",
-                y=column,
-                source=self.samples,
-                line_color=colour,
-                line_width=style.THIN_LINE_WIDTH,
-                line_dash=dash,
-                legend_label=words,
-            )
-            time = CustomJSHover(args={"ends": plot.x_range}, code=TIME_HOVER)
-            plot.add_tools(
-                HoverTool(
-                    renderers=[line],
-                    mode="vline" if column == "total" else "mouse",
-                    tooltips=[("time", "@time{custom}"), (words, f"@{column}{{+0.00}} kN")],
-                    formatters={"@time": time},
-                    description=f"Values: {words}",
-                )
-            )
-        plot.legend.location = "top_right"
+        self._legend = _legend(plot, "top_right")
+        self._pinned = _PinnedLines(plot, self.pins, "time", ["total"] * MOST_CURVES)
+        self._entries = [
+            self._draw_force("total", "all supports", style.THIS_DESIGN, "solid"),
+            self._draw_force(
+                "loaded_support", "support under the wheel", style.LOADED_TRACK, style.SECOND_DASH
+            ),
+        ]
+        _list_in(self._legend, self._entries)
 
-    def show(self, picture):
-        """Draw a picture.
+    def _draw_force(self, column, words, colour, dash):
+        """Draw a force of the design at hand, and return its entry in the legend."""
+        plot = self.model
+        line = plot.line(
+            x="time",
+            y=column,
+            source=self.samples,
+            line_color=colour,
+            line_width=style.THIN_LINE_WIDTH,
+            line_dash=dash,
+        )
+        time = CustomJSHover(args={"ends": plot.x_range}, code=TIME_HOVER)
+        plot.add_tools(
+            HoverTool(
+                renderers=[line],
+                mode="vline" if column == "total" else "mouse",
+                tooltips=[("time", "@time{custom}"), (words, f"@{column}{{+0.00}} kN")],
+                formatters={"@time": time},
+                description=f"Values: {words}",
+            )
+        )
+        return LegendItem(label=value(words), renderers=[line])
+
+    def show(self, picture, curves=()):
+        """Draw a picture, and behind it the total force of pinned designs.
 
         Parameters
         ----------
         picture : Picture
             What is drawn.
+        curves : tuple of Curve
+            Up to eight pinned designs; the same tuple again is not sent again.
         """
-        low = min(picture.total_force.min(), picture.loaded_support_force.min())
-        high = max(picture.total_force.max(), picture.loaded_support_force.max())
-        self._forces.show(*rungs(low, high))
-        self._picture = picture
-        self._send(self.model.x_range.start, self.model.x_range.end)
+        new = curves is not self._curves
+        self._picture, self._curves = picture, curves
+        forces = [picture.total_force, picture.loaded_support_force]
+        forces += [curve.drawn.total_force for curve in curves]
+        self._forces.show(*rungs(min(each.min() for each in forces), max(each.max() for each in forces)))
+        ends = (self.model.x_range.start, self.model.x_range.end)
+        self._send(*ends)
+        if new:
+            self._send_pinned(*ends)
+            self._pinned.show(curves)
+            _list_in(self._legend, self._entries + self._pinned.shown_entries)
 
     def _zoomed(self, event):
         if self._picture is not None:
             self._send(event.x0, event.x1)
+            self._send_pinned(event.x0, event.x1)
 
     def _send(self, start, end):
         """Send as much of the record as can be seen: all that lies in view, an outline of the rest."""
-        time, curves = self._picture.time, (self._picture.loaded_support_force, self._picture.total_force)
-        some = outline(time, curves, start, end)
-        loaded_support, total = (curve[some].astype(np.float32) for curve in curves)
-        self.samples.data = {
-            "time": time[some].astype(np.float32),
-            "loaded_support": loaded_support,
-            "total": total,
-        }
+        picture = self._picture
+        forces = {"loaded_support": picture.loaded_support_force, "total": picture.total_force}
+        self.samples.data = _in_view(picture.time, forces, start, end)
+
+    def _send_pinned(self, start, end):
+        for source, curve in zip(self.pins, self._curves, strict=False):
+            source.data = _in_view(curve.drawn.time, {"total": curve.drawn.total_force}, start, end)
+        for source in self.pins[len(self._curves) :]:
+            if len(source.data["time"]):
+                source.data = {"time": [], "total": []}
+
+
+def _in_view(time, forces, start, end):
+    some = outline(time, tuple(forces.values()), start, end)
+    return {name: each[some].astype(np.float32) for name, each in {"time": time, **forces}.items()}
 
 
 TIME_LABELS = ("Time, ms", "Time, s")

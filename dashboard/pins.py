@@ -89,6 +89,10 @@ class Pins(param.Parameterized):
         doc="Key of the pin from which differences are taken; None: the design at hand.",
     )
 
+    alone = param.Boolean(
+        default=False, doc="Whether insertion gain is drawn of the pins alone, not of the design at hand."
+    )
+
     _latest_key = 0
 
     def __getitem__(self, key):

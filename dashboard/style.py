@@ -71,7 +71,13 @@ THEME = {
 FILL_ALPHA = 0.22
 BAR_ALPHA = 0.8
 LINE_WIDTH = 3
+PINNED_LINE_WIDTH = 2.5
+LIMIT_LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
+FAILING_SIZE = "18px"
+LEGEND_ROWS = 5
+"""Entries of a legend in one column; more make two."""
+
 SECOND_DASH = [7, 3]
 """Tells the second of two curves from the first without colour."""
 

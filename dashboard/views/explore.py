@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import style
-from dashboard.figures import ForceFigure, InsertionGainFigure
+from dashboard.figures import Curve, ForceFigure, InsertionGainFigure
 from dashboard.views.frequencies import Frequencies
 
 
@@ -21,13 +21,19 @@ class Explore(Viewer):
         Whose picture is shown.
     presentation : Presentation
         How its insertion gain is reckoned.
+    pins : Pins
+        Pinned designs, which are drawn behind it.
+    pinned : PinnedPictures
+        Their pictures.
     """
 
     title = "Explore"
 
-    def __init__(self, outcome, presentation):
+    def __init__(self, outcome, presentation, pins, pinned):
         super().__init__()
         self._outcome, self._presentation = outcome, presentation
+        self._pins, self._pinned = pins, pinned
+        self._gain_curves, self._force_curves = (), ()
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
@@ -43,15 +49,40 @@ class Explore(Viewer):
         ]
         outcome.param.watch(self._show, ["picture", "preset_picture"])
         outcome.param.watch(self._dim, ["problem", "progress"])
-        presentation.param.watch(self._show_gain, ["reference", "summation"])
-        self._show()
+        presentation.param.watch(self._reckon_anew, ["reference", "summation"])
+        pins.param.watch(self._draw_pins, ["pinned", "alone"])
+        pinned.param.watch(self._draw_pins, "pictures")
+        self._draw_pins()
 
     def _show(self, *events):
         picture = self._outcome.picture
         if picture is not None and (not events or any(event.name == "picture" for event in events)):
-            self.force.show(picture)
+            self.force.show(picture, self._force_curves)
             self._name_fidelity(picture.solution.fidelity)
         self._show_gain()
+
+    def _reckon_anew(self, *_):
+        self._collect_curves()
+        self._show_gain()
+
+    def _draw_pins(self, *_):
+        self._collect_curves()
+        self._show()
+
+    def _collect_curves(self):
+        """Reckon once what is drawn of the pins, so that frames of a drag do not reckon it anew."""
+        there = [
+            (pin, self._pinned.pictures[pin.key])
+            for pin in self._pins.shown
+            if pin.key in self._pinned.pictures
+        ]
+        self._force_curves = tuple(
+            Curve(pin.name, picture, pin.colour_code, pin.dash) for pin, picture in there
+        )
+        self._gain_curves = tuple(
+            curve._replace(drawn=self._presentation.levels(curve.drawn.solution))
+            for curve in self._force_curves
+        )
 
     def _name_fidelity(self, fidelity):
         words, variant = FIDELITY_CHIPS[fidelity]
@@ -67,6 +98,8 @@ class Explore(Viewer):
             chosen.levels(picture.solution),
             None if preset is None else chosen.levels(preset.solution),
             picture.solution.natural_frequencies,
+            curves=self._gain_curves,
+            alone=self._pins.alone,
         )
 
     def _dim(self, *_):

@@ -104,6 +104,11 @@ def draw(gain, picture, preset=None, louder=0.0):
     gain.show(solution.insertion_gain + louder, behind, solution.natural_frequencies)
 
 
+def listed(figure):
+    """Return what the legend lists."""
+    return [item.label.value for item in figure.model.legend[0].items]
+
+
 @pytest.mark.parametrize("preset", ["slab-track", "booted-block-low-mass"])
 def test_the_curve_is_the_solution(gain, picture, preset):
     draw(gain, picture(preset))
@@ -119,11 +124,9 @@ def test_the_ghost_is_the_preset(gain, picture):
     draw(gain, picture("slab-track"), picture("booted-sleeper"))
     ghost = picture("booted-sleeper").solution.insertion_gain
     np.testing.assert_array_equal(gain.bands.data["preset"], ghost)
-    entries = {item.label.value: item.visible for item in gain.model.legend[0].items}
-    assert entries == {"as in Table 1": True, "this design": True}
+    assert listed(gain) == ["this design", "as in Table 1"]
     draw(gain, picture("slab-track"))
-    entries = {item.label.value: item.visible for item in gain.model.legend[0].items}
-    assert entries == {"as in Table 1": False, "this design": True}
+    assert listed(gain) == ["this design"]
 
 
 def test_bands_carry_nominal_labels(gain):

@@ -3,9 +3,11 @@
 import dataclasses
 
 import numpy as np
+import param
 import pytest
 
 import trackig_core as tig
+from dashboard.pins import Pins
 from dashboard.state import Outcome, Presentation
 from dashboard.style import duration_text
 from dashboard.views.explore import Explore
@@ -16,6 +18,16 @@ from dashboard.views.status import Status, status_html, status_words
 @pytest.fixture
 def outcome():
     return Outcome()
+
+
+class Pictures(param.Parameterized):
+    """Pictures of pins, put there by a test."""
+
+    pictures = param.Dict(default={})
+
+
+def explore(outcome, presentation, pins=None, pinned=None):
+    return Explore(outcome, presentation, pins or Pins(), pinned or Pictures())
 
 
 def test_the_status_follows_a_solve(outcome, picture):
@@ -31,7 +43,7 @@ def test_the_status_follows_a_solve(outcome, picture):
 
 
 def test_the_status_and_a_chip_say_which_fidelity_is_on_screen(outcome, fake_picture, picture):
-    view, design = Explore(outcome, Presentation()), picture("slab-track").design
+    view, design = explore(outcome, Presentation()), picture("slab-track").design
     outcome.picture = fake_picture(design, fidelity="live", notes=("17 bays",))
     assert status_words(outcome).startswith("Live run, solved in")
     assert status_words(outcome).endswith("17 bays")
@@ -94,7 +106,7 @@ def test_what_was_not_solved_can_be_solved_after_all(outcome):
 
 def test_pictures_of_earlier_inputs_are_dimmed(outcome, picture):
     outcome.picture = picture("slab-track")
-    view = Explore(outcome, Presentation())
+    view = explore(outcome, Presentation())
     looks = (*view.panes, view.frequencies.pane)
     for changes, dimmed in (
         ({"problem": "Stopped."}, True),
@@ -123,7 +135,7 @@ def test_a_single_stage_track_says_that_it_has_no_block(picture):
 
 
 def test_all_pictures_are_redrawn_together(outcome, picture):
-    view = Explore(outcome, Presentation())
+    view = explore(outcome, Presentation())
     for preset in ("booted-block-low-mass", "slab-track"):
         outcome.param.update(picture=picture(preset), preset_picture=picture("booted-sleeper"))
         solution = picture(preset).solution
@@ -137,7 +149,7 @@ def test_all_pictures_are_redrawn_together(outcome, picture):
 
 def test_a_view_made_late_shows_what_is_there(outcome, picture):
     outcome.picture = picture("slab-track")
-    view = Explore(outcome, Presentation())
+    view = explore(outcome, Presentation())
     np.testing.assert_array_equal(
         view.insertion_gain.bands.data["level"], outcome.picture.solution.insertion_gain
     )
@@ -146,7 +158,7 @@ def test_a_view_made_late_shows_what_is_there(outcome, picture):
 def test_the_choice_of_sum_and_reference_redraws_without_solving(outcome, picture):
     presentation = Presentation()
     outcome.param.update(picture=picture("booted-sleeper"), preset_picture=picture("slab-track"))
-    view = Explore(outcome, presentation)
+    view = explore(outcome, presentation)
     for choice in ({"summation": "coherent"}, {"reference": "rigid"}):
         presentation.param.update(**choice)
         chosen = {"reference": presentation.reference, "summation": presentation.summation}
