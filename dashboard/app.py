@@ -11,18 +11,27 @@ import param
 from panel.util import edit_readonly
 
 from dashboard import style
+from dashboard.browser import Browser
+from dashboard.browser import tell as tell_user
 from dashboard.checker import Checker
 from dashboard.controls import Controls
+from dashboard.keeping import Keeping
 from dashboard.pinned import PinnedPictures
 from dashboard.pins import Pins
 from dashboard.runner import Runner, shared_live_store, shared_store
 from dashboard.state import DesignInputs, Outcome, Presentation
 from dashboard.views.explore import Explore
+from dashboard.views.keep import Keep, copy_button
+from dashboard.views.level import LevelView
+from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
 from dashboard.views.verify import Verify
+from dashboard.workshop import Workshop
 
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
+
+CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
 
 log = logging.getLogger(__name__)
 
@@ -46,36 +55,76 @@ def build(store=None, live_store=None):
     panel_material_ui.Page
         The page, its first design solved or being solved.
     """
-    pn.extension(notifications=True, reconnect=True, exception_handler=tell)
-    inputs, outcome, presentation = DesignInputs(), Outcome(), Presentation()
+    pn.extension(
+        notifications=True, reconnect=True, exception_handler=tell, disconnect_notification=CONNECTION_LOST
+    )
+    inputs, outcome, presentation, pins = DesignInputs(), Outcome(), Presentation(), Pins()
     store = store or shared_store()
+    pinned = PinnedPictures(pins, store)
+    workshop = Workshop(outcome, presentation, pins, pinned)
+    keeping = Keeping(inputs, presentation, pins, workshop, [view.title.lower() for view in VIEWS])
+    problems = keeping.follow(pn.state.session_args)
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
     Checker(outcome)
-    pins = Pins()
-    pinned = PinnedPictures(pins, store)
+    browser = Browser(keeping)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
-    views = [Explore(outcome, presentation, pins, pinned), Verify(outcome, presentation)]
-    return page(Controls(inputs), Status(outcome, runner.stop, runner.solve_again), tabs(outcome, views))
+    pn.state.onload(lambda: tell_problems(problems))
+    views = [
+        Explore(outcome, presentation, pins, pinned, workshop),
+        SpecificationView(workshop, browser),
+        LevelView(workshop, pins, browser),
+        Verify(outcome, presentation),
+        Keep(keeping, browser),
+    ]
+    status = Status(outcome, runner.stop, runner.solve_again)
+    return page(Controls(inputs), status, tabs(outcome, keeping, views), browser)
 
 
-def tabs(outcome, views):
-    """Return the views as tabs; the outcome is told when the checks come into sight."""
+VIEWS = (Explore, SpecificationView, LevelView, Verify, Keep)
+"""The tabs, in their order; a link names one by its title."""
+
+
+def tabs(outcome, keeping, views):
+    """Return the views as tabs; what is costly to draw is told whether it is in sight."""
+    names = [view.title.lower() for view in views]
     shown = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
 
-    def tell_outcome(event):
-        outcome.checking = isinstance(views[event.new], Verify)
+    def tell_views(*_):
+        active = views[shown.active]
+        keeping.tab = names[shown.active]
+        outcome.checking = isinstance(active, Verify)
+        for view in views:
+            if isinstance(view, SpecificationView | LevelView):
+                view.in_sight = view is active
 
-    shown.param.watch(tell_outcome, "active")
+    def open_tab(*_):
+        shown.active = names.index(keeping.tab)
+
+    open_tab()
+    tell_views()
+    shown.param.watch(tell_views, "active")
+    keeping.param.watch(open_tab, "tab")
     return shown
 
 
-def page(controls, status, main):
+def tell_problems(problems):
+    """Tell the user what of a link could not be followed."""
+    for words in problems:
+        tell_user("warning", words)
+
+
+def page(controls, status, main, browser):
     """Return the page around controls, status line and tabs."""
     whole = pmui.Page(
         title=TITLE,
-        header=[pmui.Typography(SUBTITLE, variant="body1", sx=style.SUBTITLE, margin=(4, 0, 0, 16))],
+        header=[
+            pmui.Typography(SUBTITLE, variant="body1", sx=style.SUBTITLE, margin=(4, 0, 0, 16)),
+            pn.HSpacer(),
+            copy_button(),
+            browser,
+        ],
         sidebar=[controls],
         main=[status, main],
         sidebar_width=style.SIDEBAR_WIDTH,

@@ -61,6 +61,7 @@ class Browser(pn.custom.JSComponent):
         )
         self._keeping = keeping
         self._openers = {}
+        self._left = None
         self._waiting = False
         self._changed = False
         self._note()
@@ -108,7 +109,9 @@ class Browser(pn.custom.JSComponent):
             case {"kind": "copied", "data": bool(copied)}:
                 tell("success", COPIED) if copied else tell("warning", NOT_COPIED)
             case {"kind": "show", "data": str(name)} if name in PLOTS:
-                self._keeping.tab = PLOTS[name]
+                self._left, self._keeping.tab = self._keeping.tab, PLOTS[name]
+            case {"kind": "back"} if self._left is not None:
+                self._left, self._keeping.tab = None, self._left
             case {"kind": "not_drawn"}:
                 tell("warning", NOT_DRAWN)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
@@ -126,7 +129,7 @@ class Browser(pn.custom.JSComponent):
 
 
 def tell(kind, words):
-    """Show the user a notification, of kind ``"success"``, ``"warning"`` or ``"error"``; words are shown as they are."""
+    """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``."""
     if pn.state.notifications is not None:
         getattr(pn.state.notifications, kind)(words, duration=8000)
 
@@ -137,7 +140,7 @@ def opening(purpose):
 
 
 def saving(plot, form, name):
-    """Return what a button does in the browser to save a plot as ``"png"`` or ``"svg"`` under a file's name."""
+    """Return what a button does in the browser to save a plot, as ``"png"`` or ``"svg"``, as a file."""
     return f"window.trackig.savePlot({json.dumps(plot)}, {json.dumps(form)}, {json.dumps(name)})"
 
 

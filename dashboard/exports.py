@@ -60,7 +60,8 @@ def force_csv(assessed):
 
 
 def _written(header, rows):
-    """Return a table as CSV; headers begin with a word of ours, so that no spreadsheet takes one for a formula."""
+    """Return a table as CSV."""
+    # headers begin with a word of ours, so that no spreadsheet takes a user's name for a formula
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(header)

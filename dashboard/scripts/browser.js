@@ -84,12 +84,14 @@ function drawn(name) {
 }
 
 async function savePlot(model, name, format, file) {
-  if (drawn(name) === null) model.send_msg({kind: "show", data: name})
+  const elsewhere = drawn(name) === null
+  if (elsewhere) model.send_msg({kind: "show", data: name})
   for (let waited = 0; waited < PATIENCE; waited += 100) {
     const view = drawn(name)
     if (view !== null && view.bbox.width > 0) {
       const layer = view.export(format, true)
       save(file, await layer.to_blob())
+      if (elsewhere) model.send_msg({kind: "back"})
       return
     }
     await new Promise((resolve) => setTimeout(resolve, 100))

@@ -10,6 +10,7 @@ from panel.viewable import Viewer
 from dashboard import style
 from dashboard.figures import Curve, ForceFigure, InsertionGainFigure
 from dashboard.views.frequencies import Frequencies
+from dashboard.views.verdict import ShortVerdict
 
 
 class Explore(Viewer):
@@ -25,18 +26,21 @@ class Explore(Viewer):
         Pinned designs, which are drawn behind it.
     pinned : PinnedPictures
         Their pictures.
+    workshop : Workshop
+        Whose specification is drawn as a limit.
     """
 
     title = "Explore"
 
-    def __init__(self, outcome, presentation, pins, pinned):
+    def __init__(self, outcome, presentation, pins, pinned, workshop):
         super().__init__()
         self._outcome, self._presentation = outcome, presentation
-        self._pins, self._pinned = pins, pinned
+        self._pins, self._pinned, self._workshop = pins, pinned, workshop
         self._gain_curves, self._force_curves = (), ()
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
+        self.verdict = ShortVerdict(workshop)
         self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
             label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
@@ -52,6 +56,7 @@ class Explore(Viewer):
         presentation.param.watch(self._reckon_anew, ["reference", "summation"])
         pins.param.watch(self._draw_pins, ["pinned", "alone"])
         pinned.param.watch(self._draw_pins, "pictures")
+        workshop.param.watch(self._show_gain, "specification")
         self._draw_pins()
 
     def _show(self, *events):
@@ -92,6 +97,7 @@ class Explore(Viewer):
         chosen = self._presentation
         self.insertion_gain.name_axis(gain_axis(chosen))
         picture, preset = self._outcome.picture, self._outcome.preset_picture
+        specification = self._workshop.specification
         if picture is None:
             return
         self.insertion_gain.show(
@@ -99,6 +105,7 @@ class Explore(Viewer):
             None if preset is None else chosen.levels(preset.solution),
             picture.solution.natural_frequencies,
             curves=self._gain_curves,
+            limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
         )
 
@@ -113,6 +120,7 @@ class Explore(Viewer):
             pmui.Row(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
+                self.verdict,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
