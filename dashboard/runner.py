@@ -310,10 +310,23 @@ def publish(outcome, document, **changes):
         document.add_next_tick_callback(partial(_apply, outcome, changes, document))
 
 
+@contextlib.contextmanager
+def one_message(document):
+    """Send all that changes within to the browser in one message, so that it is drawn in one frame.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document or None
+        The session's document.
+    """
+    # before the page says that it is loaded, Panel drops what it holds, even if the browser has its document
+    with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
+        yield
+
+
 def _apply(outcome, changes, document=None):
     try:
-        # all that a frame changes goes to the browser in one message
-        with pn.io.hold(document):
+        with one_message(document):
             outcome.param.update(**changes)
     except Exception:
         log.exception("A solution could not be drawn")
