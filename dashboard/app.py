@@ -56,7 +56,7 @@ def build(store=None, live_store=None):
         The page, its first design solved or being solved.
     """
     pn.extension(
-        notifications=True, reconnect=True, exception_handler=tell, disconnect_notification=CONNECTION_LOST
+        notifications=True, reconnect=False, exception_handler=tell, disconnect_notification=CONNECTION_LOST
     )
     inputs, outcome, presentation, pins = DesignInputs(), Outcome(), Presentation(), Pins()
     store = store or shared_store()

@@ -11,11 +11,13 @@ import asyncio
 import json
 import logging
 import secrets
+from functools import partial
 from pathlib import Path
 
 import panel as pn
 import param
 
+from dashboard.runner import in_turn, one_message
 from trackig_core import band_table, study
 
 MOST = {"study": study.MOST_BYTES, "specification": band_table.MOST_BYTES, "source": band_table.MOST_BYTES}
@@ -36,12 +38,33 @@ REST = 0.3
 COPIED = "The link is copied: it holds the design, the pinned designs and the view."
 NOT_COPIED = "The browser does not let the page copy. Copy the address from the address bar: it is the link."
 NOT_DRAWN = "The plot could not be drawn. Open its tab, then save it again."
+NOT_HEEDED = "Something went wrong; the server's log has the details."
 NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
 
 log = logging.getLogger(__name__)
 
 
-class Browser(pn.custom.JSComponent):
+class Scripted(pn.custom.JSComponent):
+    """A component with a script of ours: what the script says is heeded when the document may change."""
+
+    __abstract = True
+
+    def heed(self, message):
+        """Do what a message of the script asks for; one of another form asks for nothing."""
+
+    def _handle_msg(self, message):
+        in_turn(pn.state.curdoc, partial(self._heed_in_turn, message))
+
+    def _heed_in_turn(self, message, document):
+        try:
+            with one_message(document):
+                self.heed(message)
+        except Exception:
+            log.exception("A message from the browser could not be heeded")
+            tell("error", NOT_HEEDED)
+
+
+class Browser(Scripted):
     """The browser in which the page is, as far as the page has a say.
 
     Parameters
@@ -102,7 +125,8 @@ class Browser(pn.custom.JSComponent):
         """
         self._send_msg({"kind": "save", "name": name, "text": text, "type": kind})
 
-    def _handle_msg(self, message):
+    def heed(self, message):
+        """Do what the browser asks for."""
         match message:
             case {"kind": "restore", "data": str(data)}:
                 self._restore(data)

@@ -304,10 +304,23 @@ def publish(outcome, document, **changes):
     **changes
         New values by name.
     """
+    in_turn(document, partial(_apply, outcome, changes))
+
+
+def in_turn(document, change):
+    """Change what is drawn, when the session's document may change.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document or None
+        The session's document; None, or one that nobody looks at, may change at once.
+    change : callable
+        Makes the change; it is called with the document.
+    """
     if document is None or document.session_context is None:
-        _apply(outcome, changes)
+        change(document)
     else:
-        document.add_next_tick_callback(partial(_apply, outcome, changes, document))
+        document.add_next_tick_callback(partial(change, document))
 
 
 @contextlib.contextmanager
@@ -324,7 +337,7 @@ def one_message(document):
         yield
 
 
-def _apply(outcome, changes, document=None):
+def _apply(outcome, changes, document):
     try:
         with one_message(document):
             outcome.param.update(**changes)

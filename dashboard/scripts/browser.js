@@ -4,6 +4,9 @@
 
 const MEMORY = "trackig"
 const PATIENCE = 8000 // ms until a plot in another tab must have been drawn
+const LOOK_EVERY = 500 // ms between looks whether the server is back
+
+const pause = (time) => new Promise((resolve) => setTimeout(resolve, time))
 
 function remembered() {
   try {
@@ -94,17 +97,33 @@ async function savePlot(model, name, format, file) {
       if (elsewhere) model.send_msg({kind: "back"})
       return
     }
-    await new Promise((resolve) => setTimeout(resolve, 100))
+    await pause(100)
   }
   model.send_msg({kind: "not_drawn", data: name})
 }
 
-export function render({model}) {
+// Bokeh would take up a session where it was, but loses the arrays in it, and would fill this page with that of a
+// restarted server, made for the address as it was at first. Loaded anew, the page comes back as it is now.
+async function comeBack() {
+  const file = document.querySelector("script[src*='static/']").src
+  for (;;) {
+    await pause(LOOK_EVERY)
+    try {
+      if ((await fetch(file, {method: "HEAD", cache: "no-store"})).ok) break
+    } catch {
+      // not yet
+    }
+  }
+  location.reload()
+}
+
+export function render({model, view}) {
   model.on("kept", () => keep(model))
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
     if (message.kind === "save") save(message.name, new Blob([message.text], {type: message.type}))
   })
+  view.model.document.on_event("connection_lost", comeBack)
   window.trackig = {
     copyLink: () => copyLink(model),
     choose: (...rest) => choose(model, ...rest),

@@ -16,7 +16,7 @@ from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import style
-from dashboard.browser import opening
+from dashboard.browser import Scripted, opening
 from dashboard.exports import file_name
 from trackig_core.band_table import MOST_BYTES, NOMINAL
 
@@ -30,7 +30,7 @@ PASTE_WIDTH = 280
 """Width of what stands beside the table [px]."""
 
 
-class BandGrid(pn.custom.JSComponent):
+class BandGrid(Scripted):
     """The table: boxes for the values given, and columns of what came of them."""
 
     bands = param.List(default=list(tig.BAND_LABELS), doc="Names of the rows.")
@@ -48,7 +48,8 @@ class BandGrid(pn.custom.JSComponent):
     on_typed = None
     on_pasted = None
 
-    def _handle_msg(self, message):
+    def heed(self, message):
+        """Hand on what was typed or pasted."""
         last = len(self.bands) - 1
         match message:
             case {"kind": "typed", "band": int(band), "text": str(text)} if 0 <= band <= last:
@@ -90,7 +91,7 @@ class BandEditor(Viewer):
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
         self.message = pn.pane.HTML("", stylesheets=[style.MESSAGE_CSS], margin=(0, 12, 4, 12))
         self.pasted = pmui.TextAreaInput(
-            label="Paste here: two columns, Hz and dB",
+            label="Paste: Hz and dB",
             placeholder="31.5\t-6\n40\t-8",
             rows=8,
             max_length=MOST_BYTES,
