@@ -12,19 +12,24 @@ from panel.util import edit_readonly
 
 from dashboard import style
 from dashboard.browser import Browser
-from dashboard.browser import tell as tell_user
 from dashboard.checker import Checker
 from dashboard.controls import Controls
+from dashboard.curves import PinnedCurves
+from dashboard.exchange import Exchange
+from dashboard.exchange import tell as tell_user
 from dashboard.keeping import Keeping
 from dashboard.pinned import PinnedPictures
 from dashboard.pins import Pins
 from dashboard.runner import Runner, shared_live_store, shared_store
 from dashboard.state import DesignInputs, Outcome, Presentation
+from dashboard.views.compare import Compare
+from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
 from dashboard.views.keep import Keep, copy_button
 from dashboard.views.level import LevelView
 from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
+from dashboard.views.track import Track
 from dashboard.views.verify import Verify
 from dashboard.workshop import Workshop
 
@@ -61,33 +66,41 @@ def build(store=None, live_store=None):
     inputs, outcome, presentation, pins = DesignInputs(), Outcome(), Presentation(), Pins()
     store = store or shared_store()
     pinned = PinnedPictures(pins, store)
-    workshop = Workshop(outcome, presentation, pins, pinned)
+    curves = PinnedCurves(pins, pinned, presentation)
+    workshop = Workshop(outcome, presentation, pins, pinned, curves)
     keeping = Keeping(inputs, presentation, pins, workshop, [view.title.lower() for view in VIEWS])
     problems = keeping.follow(pn.state.session_args)
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
     Checker(outcome)
-    browser = Browser(keeping)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
     pn.state.onload(lambda: tell_problems(problems))
+    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(keeping)
+
+    def show_insertion_gain():
+        keeping.tab = Explore.title.lower()
+
     views = [
-        Explore(outcome, presentation, pins, pinned, workshop),
-        SpecificationView(workshop, browser),
-        LevelView(workshop, pins, browser),
+        Explore(outcome, presentation, pins, curves, workshop),
+        Compare(inputs, outcome, presentation, pins, pinned, curves, show_insertion_gain),
+        SpecificationView(workshop, exchange),
+        LevelView(workshop, pins, exchange),
+        Track(inputs, outcome),
         Verify(outcome, presentation),
-        Keep(keeping, browser),
+        Keep(keeping, exchange),
     ]
     status = Status(outcome, runner.stop, runner.solve_again)
-    return page(Controls(inputs), status, tabs(outcome, keeping, views), browser)
+    sidebar = [DesignBar(inputs, pins, browser), Controls(inputs)]
+    return page(sidebar, status, tabs(outcome, keeping, views), browser, exchange)
 
 
-VIEWS = (Explore, SpecificationView, LevelView, Verify, Keep)
+VIEWS = (Explore, Compare, SpecificationView, LevelView, Track, Verify, Keep)
 """The tabs, in their order; a link names one by its title."""
 
 
 def tabs(outcome, keeping, views):
-    """Return the views as tabs; what is costly to draw is told whether it is in sight."""
+    """Return the views as tabs; those that work only while somebody looks are told when they are in sight."""
     names = [view.title.lower() for view in views]
     shown = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
 
@@ -96,8 +109,8 @@ def tabs(outcome, keeping, views):
         keeping.tab = names[shown.active]
         outcome.checking = isinstance(active, Verify)
         for view in views:
-            if isinstance(view, SpecificationView | LevelView):
-                view.in_sight = view is active
+            if isinstance(view, (Compare, LevelView, SpecificationView, Track)):
+                view.look(view is active)
 
     def open_tab(*_):
         shown.active = names.index(keeping.tab)
@@ -115,8 +128,8 @@ def tell_problems(problems):
         tell_user("warning", words)
 
 
-def page(controls, status, main, browser):
-    """Return the page around controls, status line and tabs."""
+def page(sidebar, status, main, browser, exchange):
+    """Return the page around sidebar, status line and tabs; its theme is the one that the browser keeps."""
     whole = pmui.Page(
         title=TITLE,
         header=[
@@ -124,8 +137,9 @@ def page(controls, status, main, browser):
             pn.HSpacer(),
             copy_button(),
             browser,
+            exchange,
         ],
-        sidebar=[controls],
+        sidebar=sidebar,
         main=[status, main],
         sidebar_width=style.SIDEBAR_WIDTH,
         theme_config=style.THEME,
@@ -135,6 +149,7 @@ def page(controls, status, main, browser):
     # the page would follow a flag that all sessions of the process share, and would never let go of it
     with edit_readonly(whole):
         whole.busy = Busy().param.value
+    browser.link(whole, dark="dark_theme", bidirectional=True)
     return whole
 
 

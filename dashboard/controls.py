@@ -169,20 +169,22 @@ class Controls(Viewer):
         )
         self.revert = pmui.Button(
             label="Back to Table 1",
-            icon="undo",
+            icon="restore",
             variant="text",
             size="small",
             disabled=inputs.param.modified.rx.not_(),
             on_click=self._revert,
             margin=(0, 12, 0, 0),
         )
-        self.advanced = pmui.Card(
-            self.quantities["contact_stiffness"],
-            title="Advanced",
-            collapsed=True,
+        # a card's button to open it has no name of its own
+        self.advanced = pmui.Accordion(
+            ("Advanced", self.quantities["contact_stiffness"]),
+            active=[],
             title_variant="subtitle2",
+            disable_gutters=True,
+            elevation=0,
             sizing_mode="stretch_width",
-            margin=(4, 8, 8, 8),
+            margin=(0, 0, 8, 0),
         )
 
     def _revert(self, _):

@@ -9,7 +9,6 @@ would leave them, or would fill less than half.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from bokeh.core.properties import value
@@ -222,28 +221,7 @@ NO_LABEL = "\N{NO-BREAK SPACE}"
 """Keeps a label's row free, so that the frame stays put."""
 
 
-class Curve(NamedTuple):
-    """What is drawn of a pinned design.
-
-    Attributes
-    ----------
-    name : str
-        What it is called: text of a user's, which no figure takes for markup.
-    drawn : numpy.ndarray (21,) or Picture
-        Insertion gain [dB], or the picture whose total force is drawn.
-    colour : str
-        Its colour in every plot.
-    dash : sequence of int
-        Its dash in every plot [px]; empty: solid.
-    """
-
-    name: str
-    drawn: object
-    colour: str
-    dash: tuple
-
-
-class _PinnedLines:
+class PinnedLines:
     """Lines for as many pinned designs as there can be, each with its entry in the legend."""
 
     def __init__(self, plot, sources, x, columns):
@@ -273,14 +251,20 @@ MOST_CURVES = len(style.DESIGN_COLOURS)
 """Pinned designs that a figure can draw: one for each colour."""
 
 
-def _legend(plot, location):
+def new_legend(plot, location):
     """Return a figure's legend, empty as yet; it is made first, so that curves are drawn behind it."""
     legend = Legend(items=[], location=location)
+    keep(
+        legend,
+        label_text_font_size=style.TICK_SIZES,
+        glyph_width=(style.LEGEND_LINE, style.LEGEND_LINE),
+        background_fill_alpha=(style.LEGEND_ALPHA, style.LEGEND_ALPHA),
+    )
     plot.add_layout(legend)
     return legend
 
 
-def _list_in(legend, entries):
+def list_in(legend, entries):
     """List in a legend what is drawn, in two columns when one would be long."""
     if entries != legend.items:
         legend.update(items=entries, ncols=1 if len(entries) <= style.LEGEND_ROWS else 2)
@@ -306,12 +290,13 @@ class InsertionGainFigure:
 
     def __init__(self):
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
-        self.pins = ColumnDataSource(name="pins", data=_pin_columns(()))
+        self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
         self._curves = ()
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
             name="insertion_gain_figure",
+            aria_label="Insertion gain per one-third-octave band",
             x_axis_type="log",
             y_range=self._levels.model,
             x_axis_label="One-third-octave band, Hz",
@@ -326,7 +311,7 @@ class InsertionGainFigure:
         plot = self.model
         show_bands(plot)
         plot.add_layout(zero_line())
-        self._legend = _legend(plot, "bottom_left")
+        self._legend = new_legend(plot, "bottom_left")
         self._fill = plot.quad(
             left="left",
             right="right",
@@ -339,7 +324,7 @@ class InsertionGainFigure:
         )
         self._draw_limit()
         names = [f"pin_{place}" for place in range(MOST_CURVES)]
-        self._pinned = _PinnedLines(plot, [self.pins] * MOST_CURVES, "centre", names)
+        self._pinned = PinnedLines(plot, [self.pins] * MOST_CURVES, "centre", names)
         shared = {"source": self.bands, "x": "centre"}
         self._ghost = plot.line(
             y="preset",
@@ -443,7 +428,7 @@ class InsertionGainFigure:
         if curves is self._curves:
             return
         self._curves = curves
-        self.pins.data = _pin_columns(curves)
+        self.pins.data = pin_columns(curves)
         self._pinned.show(curves)
 
     def _tell(self, curves, alone):
@@ -463,7 +448,7 @@ class InsertionGainFigure:
             "exceeds it": np.isfinite(limit["failing"]).any(),
         }
         entries = [entry for words, entry in self._entries.items() if drawn[words]]
-        _list_in(self._legend, entries + self._pinned.shown_entries)
+        list_in(self._legend, entries + self._pinned.shown_entries)
 
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
@@ -491,7 +476,8 @@ def _band_columns(levels, preset):
     }
 
 
-def _pin_columns(curves):
+def pin_columns(curves):
+    """Return the columns of a source that holds a level per band of each curve, NaN for those missing."""
     missing = MOST_CURVES - len(curves)
     levels = [curve.drawn for curve in curves] + [NO_LEVELS] * missing
     columns = {f"pin_{place}": each for place, each in enumerate(levels)}
@@ -534,6 +520,7 @@ class ForceFigure:
         self._forces = AxisEnds((-1.0, 1.0))
         self.model = blank_figure(
             name="force_figure",
+            aria_label="Force into the ground over time",
             x_range=Range1d(*TIME_AXIS),
             y_range=self._forces.model,
             x_axis_label=TIME_LABELS[0],
@@ -554,15 +541,15 @@ class ForceFigure:
 
     def _draw_forces(self):
         plot = self.model
-        self._legend = _legend(plot, "top_right")
-        self._pinned = _PinnedLines(plot, self.pins, "time", ["total"] * MOST_CURVES)
+        self._legend = new_legend(plot, "top_right")
+        self._pinned = PinnedLines(plot, self.pins, "time", ["total"] * MOST_CURVES)
         self._entries = [
             self._draw_force("total", "all supports", style.THIS_DESIGN, "solid"),
             self._draw_force(
                 "loaded_support", "support under the wheel", style.LOADED_TRACK, style.SECOND_DASH
             ),
         ]
-        _list_in(self._legend, self._entries)
+        list_in(self._legend, self._entries)
 
     def _draw_force(self, column, words, colour, dash):
         """Draw a force of the design at hand, and return its entry in the legend."""
@@ -607,7 +594,7 @@ class ForceFigure:
         if new:
             self._send_pinned(*ends)
             self._pinned.show(curves)
-            _list_in(self._legend, self._entries + self._pinned.shown_entries)
+            list_in(self._legend, self._entries + self._pinned.shown_entries)
 
     def _zoomed(self, event):
         if self._picture is not None:
@@ -666,9 +653,13 @@ def zero_line():
     )
 
 
-def blank_figure(**options):
-    """Return an empty figure with the tools that all have."""
+def blank_figure(aria_label="", **options):
+    """Return an empty figure with the tools that all have, and a name that screen readers tell."""
     plot = figure(
+        html_attributes={
+            "role": "figure",
+            "aria-label": aria_label or options["y_axis_label"],
+        },
         tools=[PanTool(), BoxZoomTool(), WheelZoomTool(dimensions="width"), ResetTool(), SaveTool()],
         toolbar_location="right",
         sizing_mode="stretch_width",
@@ -676,4 +667,19 @@ def blank_figure(**options):
     )
     plot.toolbar.logo = None
     plot.toolbar.autohide = True
+    for axis in plot.axis:
+        keep(axis, major_label_text_font_size=style.TICK_SIZES, axis_label_text_font_size=style.AXIS_SIZES)
     return plot
+
+
+def keep(model, **looks):
+    """Keep looks of a model that the page's theme would change, each for narrow and for wide windows."""
+    for name, (narrow, wide) in looks.items():
+        setattr(model, name, wide)
+        model.js_on_change(name, CustomJS(args={"name": name, "narrow": narrow, "wide": wide}, code=KEEP))
+
+
+KEEP = f"""
+    const wanted = window.innerWidth < {style.NARROW_WINDOW} ? narrow : wide
+    if (cb_obj[name] !== wanted) {{ cb_obj.setv({{[name]: wanted}}, {{sync: false}}) }}
+"""

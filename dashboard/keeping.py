@@ -38,7 +38,7 @@ class Keeping(param.Parameterized):
         """Call back whenever anything changes that is kept."""
         self.inputs.param.watch(callback, list(link.INPUTS))
         self.presentation.param.watch(callback, ["summation", "reference"])
-        self.pins.param.watch(callback, ["pinned", "base"])
+        self.pins.param.watch(callback, ["pinned", "base", "alone"])
         self.workshop.param.watch(callback, ["specification", "source", "title"])
         self.param.watch(callback, "tab")
 
@@ -54,7 +54,7 @@ class Keeping(param.Parameterized):
 
     def query(self):
         """Return the query string of a link to what is on the page; it holds no specification or source."""
-        view = {**self._view, "tab": self.tab}
+        view = {**self._view, "alone": str(int(self.pins.alone)), "tab": self.tab}
         return link.encode(self.inputs.to_values(), view, self.pins.pinned, self._base)
 
     def study(self):
@@ -82,11 +82,13 @@ class Keeping(param.Parameterized):
         tuple of str
             What was ignored or clamped, in words for the user.
         """
-        choices = {**link.VIEW_CHOICES, "tab": tuple(self.param.tab.objects)}
+        choices = {**link.VIEW_CHOICES, "alone": ("0", "1"), "tab": tuple(self.param.tab.objects)}
         found = link.decode(arguments, choices)
         view = dict(found.view)
         self.tab = view.pop("tab", self.tab)
+        alone = view.pop("alone", "0") == "1"
         self._set(found.values, found.pins, found.base, view)
+        self.pins.alone = alone and bool(found.pins)
         return found.problems
 
     def open(self, data):

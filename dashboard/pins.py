@@ -152,6 +152,20 @@ class Pins(param.Parameterized):
         missing = [key for key, design in tig.PRESETS.items() if design not in there]
         return self.add_all((preset_values(key), PRESET_LABELS[key]) for key in missing)
 
+    def show_table_1(self):
+        """Draw the paper's four tracks and nothing else, pinning those that are missing: its Figure 2.
+
+        Raises
+        ------
+        PinError
+            If there is no room for them; then nothing has changed.
+        """
+        with param.parameterized.batch_call_watchers(self):
+            self.add_table_1()
+            published = set(tig.PRESETS.values())
+            self.pinned = tuple(replace(pin, shown=pin.design in published) for pin in self.pinned)
+            self.alone = True
+
     def add_all(self, designs):
         """Pin several designs as one change: all of them or none.
 

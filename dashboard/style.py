@@ -75,6 +75,15 @@ PINNED_LINE_WIDTH = 2.5
 LIMIT_LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
 FAILING_SIZE = "18px"
+NARROW_WINDOW = 1200
+"""Width below which a window has no room for 21 bands in large figures [px]."""
+
+TICK_SIZES, AXIS_SIZES = ("14px", "17px"), ("15px", "17px")
+"""Text at the ticks and beside the axes, in narrow windows and in wide ones."""
+
+LEGEND_LINE, LEGEND_ALPHA = 40, 0.75
+"""Length of a legend's lines, long enough for any dash [px], and how little is seen through it."""
+
 LEGEND_ROWS = 5
 """Entries of a legend in one column; more make two."""
 
@@ -145,6 +154,12 @@ HIDDEN_LABEL = {
 }
 """A box whose label only screen readers meet, the slider beside it showing the same words."""
 
+LEFT_ALIGNED = {
+    "& input": {"padding": "5px 8px", "textAlign": "left"},
+    "& input::placeholder": {"opacity": "0.7 !important"},
+}
+"""The same for words."""
+
 SIDEBAR_WIDTH = 330
 STATUS_HEIGHT = 32
 FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
@@ -169,6 +184,32 @@ select:not([multiple]).bk-input.bk-input {
 select.bk-input option { color: var(--panel-on-background-color); background: var(--panel-background-color); }
 """
 """The browser's own select, legible from afar; its arrow follows the theme."""
+
+CHECKS_CSS = """
+.bk-input-group { flex-wrap: wrap; }
+label { font-size: 15px; margin-right: 14px; color: var(--panel-on-background-color); }
+"""
+DRAWING_CSS = """
+:host { color: var(--panel-on-background-color); }
+svg { display: block; width: 100%; height: max(440px, calc(100vh - 200px)); }
+"""
+SWATCH_CSS = ".swatch { display: block; }"
+
+TABLE_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+.scroll { overflow-x: auto; padding: 0 12px 10px 12px; }
+table { border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }
+caption { text-align: left; font-size: 14px; padding-bottom: 4px; }
+th, td { padding: 4px 12px; text-align: right; vertical-align: top; }
+td, tbody th { border-top: 1px solid rgba(128, 128, 128, 0.3); }
+th[scope="row"], th[scope="rowgroup"], thead th:first-child { text-align: left; white-space: nowrap; }
+th[scope="row"] { font-weight: 400; }
+thead th { max-width: 150px; overflow-wrap: anywhere; }
+.group th { padding-top: 12px; }
+.swatch { display: block; margin-left: auto; }
+.name { display: block; }
+.difference { display: block; font-size: 14px; font-weight: 400; opacity: 0.8; }
+"""
 
 SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
 """A slider marks the preset's value with a tick."""

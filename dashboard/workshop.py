@@ -67,6 +67,8 @@ class Workshop(param.Parameterized):
         The pinned designs.
     pinned : PinnedPictures
         Their pictures, by key.
+    curves : PinnedCurves
+        Their insertion gain, by key.
     """
 
     specification = param.ClassSelector(class_=tig.Specification, default=None, allow_None=True)
@@ -74,13 +76,14 @@ class Workshop(param.Parameterized):
     title = param.String(default=tig.Study.name, doc="What the study is called.")
     assessed = param.Parameter(default=(), doc="A tuple of Assessed, the design at hand first.")
 
-    def __init__(self, outcome, presentation, pins, pinned):
+    def __init__(self, outcome, presentation, pins, pinned, curves):
         super().__init__()
-        self._outcome, self._presentation, self._pins, self._pinned = outcome, presentation, pins, pinned
+        self._outcome, self._presentation = outcome, presentation
+        self._pins, self._pinned, self._curves = pins, pinned, curves
         outcome.param.watch(self._assess, "picture")
         presentation.param.watch(self._assess, ["summation", "reference"])
         pins.param.watch(self._assess, ["pinned", "base"])
-        pinned.param.watch(self._assess, "pictures")
+        curves.param.watch(self._assess, "levels")
         self.param.watch(self._assess, ["specification", "source"])
         self._assess()
 
@@ -98,15 +101,17 @@ class Workshop(param.Parameterized):
         self.assessed = tuple(self._assessments())
 
     def _assessments(self):
-        if self._outcome.picture is not None:
-            yield self._assessment(None, THIS_DESIGN, style.THIS_DESIGN, (), True, self._outcome.picture)
+        picture, levels = self._outcome.picture, self._curves.levels
+        if picture is not None:
+            gain = self._presentation.levels(picture.solution)
+            yield self._assessment(None, THIS_DESIGN, style.THIS_DESIGN, (), True, picture, gain)
         for pin in self._pins.pinned:
-            picture = self._pinned.pictures.get(pin.key)
-            if picture is not None:
-                yield self._assessment(pin.key, pin.name, pin.colour_code, pin.dash, pin.shown, picture)
+            if pin.key in levels:
+                picture = self._pinned.pictures[pin.key]
+                look = (pin.key, pin.name, pin.colour_code, pin.dash, pin.shown)
+                yield self._assessment(*look, picture, levels[pin.key])
 
-    def _assessment(self, key, name, colour, dash, shown, picture):
-        levels = self._presentation.levels(picture.solution)
+    def _assessment(self, key, name, colour, dash, shown, picture, levels):
         return Assessed(
             key=key,
             name=name,

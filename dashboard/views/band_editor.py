@@ -16,7 +16,7 @@ from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import style
-from dashboard.browser import Scripted, opening
+from dashboard.exchange import Scripted, opening
 from dashboard.exports import file_name
 from trackig_core.band_table import MOST_BYTES, NOMINAL
 
@@ -75,7 +75,7 @@ class BandEditor(Viewer):
         Where the table is kept.
     name : str
         Which of its tables: ``"specification"`` or ``"source"``.
-    browser : Browser
+    exchange : Exchange
         Saves the template, and opens files.
     given : str
         What is given per band, as a header.
@@ -83,9 +83,9 @@ class BandEditor(Viewer):
         Caption of the table.
     """
 
-    def __init__(self, workshop, name, browser, given, words):
+    def __init__(self, workshop, name, exchange, given, words):
         super().__init__()
-        self._workshop, self._name, self._browser = workshop, name, browser
+        self._workshop, self._name, self._exchange = workshop, name, exchange
         self._kind = workshop.param[name].class_
         self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
@@ -103,7 +103,7 @@ class BandEditor(Viewer):
         self.template = _button("Template", "download", on_click=self._save_template)
         self.save = _button("Save CSV", "download", on_click=self._save)
         self.clear = _button("Clear", "delete", on_click=self._clear)
-        browser.on_file(name, self.take)
+        exchange.on_file(name, self.take)
         workshop.param.watch(self._show, name)
         self._show()
 
@@ -178,10 +178,10 @@ class BandEditor(Viewer):
         self.clear.disabled = self.save.disabled = not levels
 
     def _save_template(self, *_):
-        self._browser.save(file_name(self._name, "template.csv"), self._kind.template_csv())
+        self._exchange.save(file_name(self._name, "template.csv"), self._kind.template_csv())
 
     def _save(self, *_):
-        self._browser.save(file_name(self._workshop.title, f"{self._name}.csv"), self.table.to_csv())
+        self._exchange.save(file_name(self._workshop.title, f"{self._name}.csv"), self.table.to_csv())
 
     def _clear(self, *_):
         self._keep(None)

@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import style
-from dashboard.figures import Curve, ForceFigure, InsertionGainFigure
+from dashboard.figures import ForceFigure, InsertionGainFigure
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.verdict import ShortVerdict
 
@@ -24,19 +24,18 @@ class Explore(Viewer):
         How its insertion gain is reckoned.
     pins : Pins
         Pinned designs, which are drawn behind it.
-    pinned : PinnedPictures
-        Their pictures.
+    curves : PinnedCurves
+        What is drawn of them.
     workshop : Workshop
         Whose specification is drawn as a limit.
     """
 
     title = "Explore"
 
-    def __init__(self, outcome, presentation, pins, pinned, workshop):
+    def __init__(self, outcome, presentation, pins, curves, workshop):
         super().__init__()
         self._outcome, self._presentation = outcome, presentation
-        self._pins, self._pinned, self._workshop = pins, pinned, workshop
-        self._gain_curves, self._force_curves = (), ()
+        self._pins, self._curves, self._workshop = pins, curves, workshop
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
@@ -44,6 +43,15 @@ class Explore(Viewer):
         self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
             label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
+        )
+        self.show_hand = pmui.Button(
+            label="Show this design",
+            icon="visibility",
+            size="small",
+            variant="outlined",
+            visible=pins.param.alone,
+            on_click=lambda _: pins.param.update(alone=False),
+            margin=(2, 0, 0, 10),
         )
         self.choices = [
             pn.widgets.Select.from_param(
@@ -53,41 +61,24 @@ class Explore(Viewer):
         ]
         outcome.param.watch(self._show, ["picture", "preset_picture"])
         outcome.param.watch(self._dim, ["problem", "progress"])
-        presentation.param.watch(self._reckon_anew, ["reference", "summation"])
-        pins.param.watch(self._draw_pins, ["pinned", "alone"])
-        pinned.param.watch(self._draw_pins, "pictures")
+        presentation.param.watch(self._show_gain, ["reference", "summation"])
+        pins.param.watch(self._show_gain, "alone")
         workshop.param.watch(self._show_gain, "specification")
-        self._draw_pins()
+        curves.param.watch(self._show_all, ["gains", "forces"])
+        self._show_all()
 
     def _show(self, *events):
+        if any(event.name == "picture" for event in events):
+            self._show_all()
+        else:
+            self._show_gain()
+
+    def _show_all(self, *_):
         picture = self._outcome.picture
-        if picture is not None and (not events or any(event.name == "picture" for event in events)):
-            self.force.show(picture, self._force_curves)
+        if picture is not None:
+            self.force.show(picture, self._curves.forces)
             self._name_fidelity(picture.solution.fidelity)
         self._show_gain()
-
-    def _reckon_anew(self, *_):
-        self._collect_curves()
-        self._show_gain()
-
-    def _draw_pins(self, *_):
-        self._collect_curves()
-        self._show()
-
-    def _collect_curves(self):
-        """Reckon once what is drawn of the pins, so that frames of a drag do not reckon it anew."""
-        there = [
-            (pin, self._pinned.pictures[pin.key])
-            for pin in self._pins.shown
-            if pin.key in self._pinned.pictures
-        ]
-        self._force_curves = tuple(
-            Curve(pin.name, picture, pin.colour_code, pin.dash) for pin, picture in there
-        )
-        self._gain_curves = tuple(
-            curve._replace(drawn=self._presentation.levels(curve.drawn.solution))
-            for curve in self._force_curves
-        )
 
     def _name_fidelity(self, fidelity):
         words, variant = FIDELITY_CHIPS[fidelity]
@@ -104,7 +95,7 @@ class Explore(Viewer):
             chosen.levels(picture.solution),
             None if preset is None else chosen.levels(preset.solution),
             picture.solution.natural_frequencies,
-            curves=self._gain_curves,
+            curves=self._curves.gains,
             limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
         )
@@ -121,6 +112,7 @@ class Explore(Viewer):
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
                 self.verdict,
+                self.show_hand,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
@@ -178,7 +170,7 @@ def bokeh_pane(model):
 
 def gain_axis(presentation):
     """Return what the insertion gain's axis is called, the choice named in it."""
-    return f"Insertion gain, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
+    return f"IG, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
 
 
-SUMMATION_AXIS = {"energy": "summed energy", "coherent": "coherent force"}
+SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}

@@ -13,7 +13,7 @@ from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import style
-from dashboard.browser import COPYING, opening, saving, tell
+from dashboard.exchange import COPYING, opening, saving, tell
 from dashboard.exports import file_name, force_csv, gain_csv
 from dashboard.runner import workers
 from dashboard.views.explore import PAPER, caption
@@ -27,15 +27,15 @@ class Keep(Viewer):
     ----------
     keeping : Keeping
         What is kept.
-    browser : Browser
+    exchange : Exchange
         Where it goes.
     """
 
     title = "Keep"
 
-    def __init__(self, keeping, browser):
+    def __init__(self, keeping, exchange):
         super().__init__()
-        self._keeping, self._browser, self._workshop = keeping, browser, keeping.workshop
+        self._keeping, self._exchange, self._workshop = keeping, exchange, keeping.workshop
         self.study_name = pmui.TextInput(
             label="Name of the study",
             value=self._workshop.title,
@@ -61,7 +61,7 @@ class Keep(Viewer):
         self.study_name.param.watch(self._rename, "value")
         self._workshop.param.watch(self._show_name, "title")
         self._workshop.param.watch(self._enable, "assessed")
-        browser.on_file("study", self._open_study)
+        exchange.on_file("study", self._open_study)
         self._enable()
 
     def _rename(self, event):
@@ -83,7 +83,7 @@ class Keep(Viewer):
         return file_name(self._workshop.title, suffix)
 
     def _save_study(self, *_):
-        self._browser.save(self._file(".toml"), self._keeping.study().to_toml(), "application/toml")
+        self._exchange.save(self._file(".toml"), self._keeping.study().to_toml(), "application/toml")
 
     def _open_study(self, data):
         try:
@@ -96,10 +96,10 @@ class Keep(Viewer):
             tell("success", "The study is open.")
 
     def _save_gain(self, *_):
-        self._browser.save(self._file("gain.csv"), gain_csv(self._workshop.shown))
+        self._exchange.save(self._file("gain.csv"), gain_csv(self._workshop.shown))
 
     def _save_force(self, *_):
-        self._browser.save(self._file("force.csv"), force_csv(self._workshop.shown))
+        self._exchange.save(self._file("force.csv"), force_csv(self._workshop.shown))
 
     async def _save_report(self, *_):
         study, title = self._keeping.study(), self._file("report.html")
@@ -111,7 +111,7 @@ class Keep(Viewer):
         except ValueError:
             tell("warning", NOT_SOLVED)
         else:
-            self._browser.save(title, report, "text/html")
+            self._exchange.save(title, report, "text/html")
         finally:
             self.report.loading = False
 
@@ -155,6 +155,7 @@ def button(label, icon, **kind):
 PLOTS = (
     ("insertion_gain_figure", "Insertion gain", "gain"),
     ("force_figure", "Force", "force"),
+    ("pin_difference_figure", "Difference", "difference"),
 )
 """Name of each plot's figure, what it is called, and how its file is named."""
 

@@ -8,14 +8,13 @@ import html
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-import param
 from panel.viewable import Viewer
 
 from dashboard import style
 from dashboard.views.band_editor import BandEditor
+from dashboard.views.compare import HAND, HAND_NAME
 from dashboard.views.explore import PAPER, caption
 from dashboard.views.verdict import swatch_svg
-from trackig_core.study import THIS_DESIGN
 
 
 class LevelView(Viewer):
@@ -27,42 +26,48 @@ class LevelView(Viewer):
         What is edited and shown.
     pins : Pins
         Whose base of differences is chosen.
-    browser : Browser
+    exchange : Exchange
         Opens and saves files.
     """
 
     title = "Level"
 
-    in_sight = param.Boolean(default=False, doc="Whether the tab is open; nothing is drawn while it is not.")
-
-    def __init__(self, workshop, pins, browser):
+    def __init__(self, workshop, pins, exchange):
         super().__init__()
+        self._in_sight = False
         self._workshop, self._pins = workshop, pins
         self.base = pn.widgets.Select(
-            label="Difference from", width=240, margin=(0, 12, 0, 12), stylesheets=[style.SELECT_CSS]
+            label="Difference from",
+            options={HAND_NAME: HAND},
+            width=240,
+            margin=(0, 12, 0, 12),
+            stylesheets=[style.SELECT_CSS],
         )
         self.table = pn.pane.HTML(
             "", stylesheets=[style.LEVELS_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
         )
         self.editor = BandEditor(
-            workshop, "source", browser, "Source, dB", "Level on the reference track, and with the designs"
+            workshop, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
         )
         self.base.param.watch(self._choose, "value")
         pins.param.watch(self._offer, ["pinned", "base"])
         workshop.param.watch(self._show, "assessed")
-        self.param.watch(self._show, "in_sight")
         self._offer()
 
     def _offer(self, *_):
-        options = {f"{pin.name} (pinned)": pin.key for pin in self._pins.pinned}
-        options = {THIS_DESIGN: None, **options}
-        self.base.param.update(options=options, value=self._pins.base)
+        options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
+        self.base.param.update(options=options, value=self._pins.base or HAND)
 
     def _choose(self, event):
-        self._pins.choose_base(event.new)
+        self._pins.choose_base(event.new or None)
+
+    def look(self, in_sight):
+        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
+        self._in_sight = in_sight
+        self._show()
 
     def _show(self, *_):
-        if not self.in_sight:
+        if not self._in_sight:
             return
         self.table.object = levels_html(self._workshop.shown, self._workshop.source, self._workshop.base)
         self.editor.grid.columns = [_column(each) for each in self._workshop.shown if each.level is not None]

@@ -6,7 +6,6 @@ The one rule: the verdict stands above the table, in words that can be read from
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-import param
 from panel.viewable import Viewer
 
 from dashboard import style
@@ -22,16 +21,15 @@ class SpecificationView(Viewer):
     ----------
     workshop : Workshop
         What is edited and shown.
-    browser : Browser
+    exchange : Exchange
         Opens and saves files.
     """
 
     title = "Specification"
 
-    in_sight = param.Boolean(default=False, doc="Whether the tab is open; nothing is drawn while it is not.")
-
-    def __init__(self, workshop, browser):
+    def __init__(self, workshop, exchange):
         super().__init__()
+        self._in_sight = False
         self._workshop = workshop
         self.verdict = pn.pane.HTML(
             "", stylesheets=[style.VERDICT_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
@@ -39,15 +37,19 @@ class SpecificationView(Viewer):
         self.editor = BandEditor(
             workshop,
             "specification",
-            browser,
+            exchange,
             "Limit, dB",
             "Greatest insertion gain allowed, and the designs",
         )
         workshop.param.watch(self._show, "assessed")
-        self.param.watch(self._show, "in_sight")
+
+    def look(self, in_sight):
+        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
+        self._in_sight = in_sight
+        self._show()
 
     def _show(self, *_):
-        if not self.in_sight:
+        if not self._in_sight:
             return
         self.verdict.object = verdicts_html(self._workshop.assessed)
         self.editor.grid.columns = [column for each in self._workshop.shown for column in _columns(each)]

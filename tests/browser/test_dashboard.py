@@ -311,7 +311,7 @@ def test_the_choice_of_sum_and_reference_is_drawn_and_named(dashboard):
     choose(dashboard, "Against", "Rigid track")
     wait_for_levels(dashboard, tig.solve(OPENING, reference="rigid", summation="coherent").insertion_gain)
     label = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').left[0].axis_label"
-    assert dashboard.evaluate(label) == "Insertion gain, dB (coherent force / rigid)"
+    assert dashboard.evaluate(label) == "IG, dB (coherent / rigid)"
 
 
 def test_the_run_is_held_against_theory_while_the_tab_is_open(dashboard):

@@ -7,12 +7,14 @@ import param
 import pytest
 
 import trackig_core as tig
+from dashboard.curves import PinnedCurves
 from dashboard.pins import Pins
 from dashboard.state import Outcome, Presentation
 from dashboard.style import duration_text
 from dashboard.views.explore import Explore
 from dashboard.views.frequencies import Frequencies, frequencies_html
 from dashboard.views.status import Status, status_html, status_words
+from dashboard.workshop import Workshop
 
 
 @pytest.fixture
@@ -27,7 +29,11 @@ class Pictures(param.Parameterized):
 
 
 def explore(outcome, presentation, pins=None, pinned=None):
-    return Explore(outcome, presentation, pins or Pins(), pinned or Pictures())
+    """Return the view, with pins and pictures of theirs if a test gives them."""
+    pins, pinned = pins or Pins(), pinned or Pictures()
+    curves = PinnedCurves(pins, pinned, presentation)
+    workshop = Workshop(outcome, presentation, pins, pinned, curves)
+    return Explore(outcome, presentation, pins, curves, workshop)
 
 
 def test_the_status_follows_a_solve(outcome, picture):
@@ -165,7 +171,7 @@ def test_the_choice_of_sum_and_reference_redraws_without_solving(outcome, pictur
         for column, name in (("level", "booted-sleeper"), ("preset", "slab-track")):
             expected = tig.solve(tig.PRESETS[name], **chosen).insertion_gain
             np.testing.assert_allclose(view.insertion_gain.bands.data[column], expected, atol=1e-9)
-    assert view.insertion_gain.model.yaxis.axis_label == "Insertion gain, dB (coherent force / rigid)"
+    assert view.insertion_gain.model.yaxis.axis_label == "IG, dB (coherent / rigid)"
 
 
 def test_observed_frequencies_stand_beside_the_computed_ones(picture):

@@ -1,4 +1,4 @@
-// What only the browser can do: the address bar, the clipboard, files, and a memory that outlives the server.
+// What the server cannot do without the browser: the address bar, the clipboard, files, and a memory that outlives the server.
 //
 // The one rule: what is kept is never overwritten before it was offered to a server that does not know it.
 

@@ -1,0 +1,188 @@
+"""The tab in which pinned designs and the one at hand are compared.
+
+The one rule: nothing is reckoned here while nobody looks.
+"""
+
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+import trackig_core as tig
+from dashboard import style
+from dashboard.compare_figures import BaseDifferenceFigure
+from dashboard.pins import PinError
+from dashboard.state import display_values
+from dashboard.views.comparison_table import Column, table_html
+from dashboard.views.explore import CHOICE_WIDTH, PAPER, bokeh_pane, caption
+from dashboard.views.pin_list import PinList, tell
+
+FEW_BANDS = ("16", "31.5", "63", "125", "250")
+"""Bands that are listed at first: an octave apart [Hz]."""
+
+HAND_NAME = "this\N{NO-BREAK SPACE}design"
+"""What the design at hand is called; no pin can be called so, since names hold no such space."""
+
+HAND = 0
+"""Stands for the design at hand where keys of pins are chosen from, which count from 1."""
+
+
+class Compare(Viewer):
+    """List of pins, difference from a base, and a table side by side.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        Where a pin's values are put back.
+    outcome : Outcome
+        Whose picture is compared with the pins.
+    presentation : Presentation
+        How insertion gain is reckoned.
+    pins : Pins
+        The pins.
+    pinned : PinnedPictures
+        Their pictures.
+    curves : PinnedCurves
+        What is drawn of them.
+    on_figure_2 : callable
+        Called when the paper's four tracks alone are to be seen in the plot of insertion gain.
+    """
+
+    title = "Compare"
+
+    def __init__(self, inputs, outcome, presentation, pins, pinned, curves, on_figure_2):
+        super().__init__()
+        self._outcome, self._presentation = outcome, presentation
+        self._pins, self._pinned, self._curves = pins, pinned, curves
+        self._on_figure_2 = on_figure_2
+        self._in_sight = False
+        self.list = PinList(inputs, pins)
+        self.table_1 = pmui.Button(label="Pin Table 1", icon="push_pin", on_click=self._pin_table_1, **BUTTON)
+        self.figure_2 = pmui.Button(
+            label="Paper's Figure 2", icon="show_chart", on_click=self._show_figure_2, **BUTTON
+        )
+        self.base = pn.widgets.Select(
+            label="Differences from",
+            options={HAND_NAME: HAND},
+            width=CHOICE_WIDTH,
+            margin=(0, 12, 4, 12),
+            stylesheets=[style.SELECT_CSS],
+        )
+        self.bands = pn.widgets.CheckBoxGroup(
+            label="Bands in the table, Hz",
+            options=list(tig.BAND_LABELS),
+            value=list(FEW_BANDS),
+            inline=True,
+            sizing_mode="stretch_width",
+            margin=(0, 12, 4, 12),
+            stylesheets=[style.CHECKS_CSS],
+        )
+        self.differences = BaseDifferenceFigure()
+        self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[style.TABLE_CSS], margin=0)
+        self.base.param.watch(self._choose_base, "value")
+        self.bands.param.watch(self._show, "value")
+        outcome.param.watch(self._show, "picture")
+        presentation.param.watch(self._show, ["summation", "reference"])
+        curves.param.watch(self._show, ["levels", "gains"])
+        pins.param.watch(self._offer_bases, ["pinned", "base"])
+        pins.param.watch(self._show, ["pinned", "base"])
+        self._offer_bases()
+
+    def look(self, in_sight):
+        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
+        self._in_sight = in_sight
+        self._show()
+
+    def _pin_table_1(self, _):
+        try:
+            self._pins.add_table_1()
+        except PinError as problem:
+            tell(problem)
+
+    def _show_figure_2(self, _):
+        try:
+            self._pins.show_table_1()
+        except PinError as problem:
+            tell(problem)
+        else:
+            self._on_figure_2()
+
+    def _offer_bases(self, *_):
+        options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
+        self.base.param.update(options=options, value=self._pins.base or HAND)
+
+    def _choose_base(self, event):
+        self._pins.choose_base(event.new or None)
+
+    def _show(self, *_):
+        picture = self._outcome.picture
+        if not self._in_sight or picture is None:
+            return
+        levels, base_key = self._presentation.levels(picture.solution), self._pins.base
+        columns = [self._hand_column(picture, levels), *map(self._pin_column, self._pins.pinned)]
+        base = next(column for column in columns if column.key == base_key)
+        name = None if base_key is None else base.name
+        self.differences.show(
+            base.levels,
+            None if base_key is None else levels,
+            tuple(curve for curve in self._curves.gains if curve.name != name),
+        )
+        listed = {None, *(pin.key for pin in self._pins.shown)}
+        self.table.object = table_html(
+            [column for column in columns if column.key in listed or column is base],
+            base,
+            [band for band, label in enumerate(tig.BAND_LABELS) if label in self.bands.value],
+        )
+
+    def _hand_column(self, picture, levels):
+        return Column(
+            None,
+            HAND_NAME,
+            display_values(picture.design),
+            picture.solution.natural_frequencies,
+            levels,
+            style.THIS_DESIGN,
+            (),
+        )
+
+    def _pin_column(self, pin):
+        picture = self._pinned.pictures.get(pin.key)
+        natural = None if picture is None else picture.solution.natural_frequencies
+        levels = self._curves.levels.get(pin.key)
+        return Column(pin.key, pin.name, pin.values, natural, levels, pin.colour_code, pin.dash)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        pinned = pmui.Paper(
+            pmui.Row(
+                caption("Pinned designs", ""),
+                pn.HSpacer(),
+                self.table_1,
+                self.figure_2,
+                sizing_mode="stretch_width",
+            ),
+            self.list,
+            **PAPER,
+        )
+        difference = pmui.Paper(
+            pmui.Row(
+                caption("Difference in insertion gain", ""),
+                pn.HSpacer(),
+                self.base,
+                sizing_mode="stretch_width",
+            ),
+            bokeh_pane(self.differences.model),
+            **PAPER,
+        )
+        table = pmui.Paper(caption("Side by side", ""), self.bands, self.table, **PAPER)
+        return pmui.Grid(
+            pmui.Grid(pinned, size=12),
+            pmui.Grid(difference, size=12),
+            pmui.Grid(table, size=12),
+            container=True,
+            spacing=1,
+            sizing_mode="stretch_width",
+            margin=(0, 8, 8, 8),
+        )
+
+
+BUTTON = {"size": "small", "variant": "outlined", "margin": (6, 8, 4, 0)}

@@ -1,0 +1,107 @@
+"""The bar above the sliders: undo, redo, and pinning the design at hand under a name.
+
+The one rule: a step of the history is what a hand did in one go, whether it dragged, typed or chose.
+"""
+
+import time
+
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+from dashboard import style
+from dashboard.history import History
+from dashboard.pins import PinError
+from dashboard.state import INPUTS, PRESET_LABELS
+from dashboard.views.pin_list import tell
+from trackig_core.names import LONGEST_NAME
+
+
+class DesignBar(Viewer):
+    """Buttons that act on the design at hand as a whole.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        The design at hand.
+    pins : Pins
+        Where it is pinned.
+    browser : Browser
+        Tells when keys ask for undo or redo.
+    clock : callable
+        Any clock that does not go back [s].
+    """
+
+    def __init__(self, inputs, pins, browser, clock=time.monotonic):
+        super().__init__()
+        self._inputs, self._pins, self._clock = inputs, pins, clock
+        self._history = History(inputs.to_values())
+        self.undo = pmui.Button(label="Undo", icon="undo", description="Ctrl+Z", on_click=self._undo, **STEP)
+        self.redo = pmui.Button(
+            label="Redo", icon="redo", description="Ctrl+Y or Ctrl+Shift+Z", on_click=self._redo, **STEP
+        )
+        self.name_box = pmui.TextInput(
+            label="Name of the design to be pinned",
+            placeholder="Name (optional)",
+            max_length=LONGEST_NAME,
+            size="small",
+            variant="outlined",
+            sizing_mode="stretch_width",
+            sx=style.HIDDEN_LABEL | style.LEFT_ALIGNED,
+            margin=(4, 8, 0, 0),
+        )
+        self.pin = pmui.Button(
+            label="Pin",
+            icon="push_pin",
+            description="Keep this design beside the next ones",
+            variant="contained",
+            size="small",
+            on_click=self._pin,
+            margin=(4, 0, 0, 0),
+        )
+        inputs.param.watch(self._note, list(INPUTS))
+        browser.param.watch(self._undo, "undone")
+        browser.param.watch(self._redo, "redone")
+
+    def _note(self, *events):
+        names = {event.name for event in events}
+        self._history.note(self._inputs.to_values(), names, self._clock())
+        self._enable()
+
+    def _undo(self, _):
+        if self._history.can_undo:
+            self._inputs.take(self._history.undo())
+            self._enable()
+
+    def _redo(self, _):
+        if self._history.can_redo:
+            self._inputs.take(self._history.redo())
+            self._enable()
+
+    def _enable(self):
+        self.undo.disabled = not self._history.can_undo
+        self.redo.disabled = not self._history.can_redo
+
+    def _pin(self, _):
+        inputs = self._inputs
+        usual = "" if inputs.modified else PRESET_LABELS[inputs.preset]
+        try:
+            pin = self._pins.add(inputs.to_values(), self.name_box.value or usual)
+        except PinError as problem:
+            tell(problem)
+            return
+        self.name_box.value = ""
+        if pn.state.notifications is not None:
+            pn.state.notifications.success(f"Pinned as “{pin.name}”. See the tab Compare.", duration=3000)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return pmui.Column(
+            pmui.Row(self.name_box, self.pin, sizing_mode="stretch_width", margin=(0, 12, 0, 16)),
+            pmui.Row(self.undo, self.redo, sizing_mode="stretch_width", margin=(2, 12, 0, 8)),
+            sizing_mode="stretch_width",
+            margin=(6, 0, 0, 0),
+        )
+
+
+STEP = {"size": "small", "variant": "text", "disabled": True, "margin": 0}

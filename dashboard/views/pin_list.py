@@ -1,0 +1,145 @@
+"""The pinned designs as a list in which they are named, recoloured, shown, put back and removed.
+
+The one rule: a row lives as long as its pin, so that nobody loses the focus while typing a name.
+"""
+
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+from dashboard import style
+from dashboard.pins import PinError
+from dashboard.views.comparison_table import swatch_svg
+from trackig_core.names import LONGEST_NAME
+
+COLOURS = {name: number for number, name in enumerate(style.DESIGN_COLOUR_NAMES)}
+
+
+def tell(problem):
+    """Tell the user what cannot be done, and what can."""
+    if pn.state.notifications is not None:
+        pn.state.notifications.warning(str(problem), duration=6000)
+
+
+class PinRow(Viewer):
+    """One pinned design.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        Where its values are put back.
+    pins : Pins
+        What it changes.
+    key : int
+        Which pin it is.
+    """
+
+    def __init__(self, inputs, pins, key):
+        super().__init__()
+        self._inputs, self._pins, self._key = inputs, pins, key
+        self.swatch = pn.pane.HTML("", width=36, margin=(10, 4, 0, 4), stylesheets=[style.SWATCH_CSS])
+        self.name_box = pmui.TextInput(
+            label="Name of the design",
+            max_length=LONGEST_NAME,
+            size="small",
+            variant="outlined",
+            sizing_mode="stretch_width",
+            min_width=120,
+            sx=style.HIDDEN_LABEL | style.LEFT_ALIGNED,
+            margin=(4, 4, 0, 0),
+        )
+        self.colour = pn.widgets.Select(
+            label="Colour",
+            options=COLOURS,
+            width=116,
+            margin=(0, 4, 0, 4),
+            stylesheets=[style.SELECT_CSS],
+        )
+        self.shown = pmui.Checkbox(label="Show", margin=(0, 4, 0, 4), size="small")
+        self.use = pmui.Button(label="Use", on_click=self._use, **BUTTON)
+        self.remove = pmui.Button(label="Remove", on_click=lambda _: pins.remove(key), **BUTTON)
+        self.show(pins[key])
+        self.name_box.param.watch(self._rename, "value")
+        self.colour.param.watch(self._recolour, "value")
+        self.shown.param.watch(self._show_or_hide, "value")
+        self._row = pmui.Row(
+            *(self.swatch, self.name_box, self.colour, self.shown, self.use, self.remove),
+            sizing_mode="stretch_width",
+            margin=(0, 8, 0, 8),
+        )
+
+    def show(self, pin):
+        """Show the pin as it stands."""
+        self.swatch.object = swatch_svg(pin.colour_code, pin.dash)
+        self.name_box.param.update(value=pin.name, error_state=False, helper_text="")
+        self.colour.value, self.shown.value = pin.colour, pin.shown
+
+    def _rename(self, event):
+        if event.new == self._pins[self._key].name:
+            return
+        try:
+            self._pins.rename(self._key, event.new)
+        except PinError as problem:
+            self.name_box.param.update(error_state=True, helper_text="not taken")
+            tell(problem)
+
+    def _recolour(self, event):
+        if event.new != self._pins[self._key].colour:
+            self._pins.recolour(self._key, event.new)
+
+    def _show_or_hide(self, event):
+        if event.new != self._pins[self._key].shown:
+            self._pins.show(self._key, event.new)
+
+    def _use(self, _):
+        self._inputs.take(self._pins[self._key].values)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return self._row
+
+
+BUTTON = {"size": "small", "variant": "text", "margin": (2, 2, 0, 2)}
+
+
+class PinList(Viewer):
+    """All pinned designs, one a row.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        Where values are put back.
+    pins : Pins
+        What is listed.
+    """
+
+    def __init__(self, inputs, pins):
+        super().__init__()
+        self._inputs, self._pins = inputs, pins
+        self.rows = {}
+        self.nothing = pmui.Typography(NOTHING_YET, variant="body1", margin=(4, 12))
+        self._column = pmui.Column(sizing_mode="stretch_width", margin=(0, 0, 6, 0))
+        pins.param.watch(self._show, "pinned")
+        self._show()
+
+    def _show(self, *_):
+        pinned = self._pins.pinned
+        there = {pin.key: self.rows.get(pin.key) for pin in pinned}
+        changed = list(there) != list(self.rows) or not self._column.objects
+        self.rows = {
+            key: PinRow(self._inputs, self._pins, key) if row is None else row for key, row in there.items()
+        }
+        for pin in pinned:
+            self.rows[pin.key].show(pin)
+        if changed:
+            self._column.objects = [row.__panel__() for row in self.rows.values()] or [self.nothing]
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return self._column
+
+
+NOTHING_YET = (
+    "Nothing is pinned yet. Pin the design at hand with the button above the sliders, "
+    "or the paper's four tracks with the one above."
+)

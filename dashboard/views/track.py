@@ -1,0 +1,63 @@
+"""The tab in which the track is drawn as the sliders stand, so that a newcomer sees what each of them is.
+
+The one rule: the drawing follows the sliders, not the solver, and is not drawn while nobody looks.
+"""
+
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+from dashboard import style
+from dashboard.drawing import track_svg
+from dashboard.state import PHYSICAL
+from dashboard.views.explore import PAPER, caption
+from dashboard.views.frequencies import Frequencies
+
+
+class Track(Viewer):
+    """The drawing, and the natural frequencies beside it.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        What is drawn.
+    outcome : Outcome
+        Whose natural frequencies are told.
+    """
+
+    title = "Track"
+
+    def __init__(self, inputs, outcome):
+        super().__init__()
+        self._inputs = inputs
+        self._in_sight = False
+        self.drawing = pn.pane.HTML(
+            "", sizing_mode="stretch_width", stylesheets=[style.DRAWING_CSS], margin=(0, 12, 8, 12)
+        )
+        self.frequencies = Frequencies(outcome)
+        inputs.param.watch(self._draw, list(PHYSICAL))
+
+    def look(self, in_sight):
+        """Note whether the tab is in sight; if so, draw the track as it stands."""
+        self._in_sight = in_sight
+        self._draw()
+
+    def _draw(self, *_):
+        if self._in_sight:
+            self.drawing.object = track_svg(self._inputs.to_design())
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        drawing = pmui.Paper(caption("The track as the sliders stand", WORDS), self.drawing, **PAPER)
+        frequencies = pmui.Paper(caption("Natural frequencies", ""), self.frequencies, **PAPER)
+        return pmui.Grid(
+            pmui.Grid(drawing, size={"xs": 12, "lg": 8}),
+            pmui.Grid(frequencies, size={"xs": 12, "lg": 4}),
+            container=True,
+            spacing=1,
+            sizing_mode="stretch_width",
+            margin=(0, 8, 8, 8),
+        )
+
+
+WORDS = "stiffer springs are thicker, heavier parts larger"
