@@ -254,17 +254,18 @@ table {{ border-collapse: collapse; font-size: 15px; font-variant-numeric: tabul
 caption {{ position: absolute; clip-path: inset(50%); white-space: nowrap; }}
 th, td {{ padding: 1px 10px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
 th {{ font-weight: 600; }}
+td {{ white-space: nowrap; }}
 thead th {{ vertical-align: bottom; }}
 svg {{ width: 34px; height: 6px; margin: 0 8px 3px 0; vertical-align: middle; }}
-.name {{ overflow-wrap: anywhere; }}
+th {{ overflow-wrap: break-word; max-width: 220px; }}
 .fails {{ color: {FAILS}; font-weight: 700; }}
 """
 
 BAND_GRID_CSS = f"""
 {_TABLE_CSS}
-thead th {{ max-width: 130px; }}
+thead th {{ border-bottom: none; }}
+thead tr + tr th {{ font-weight: 400; border-bottom: 1px solid {PRESET_GHOST}40; }}
 thead svg {{ display: block; margin: 0 0 2px auto; }}
-thead small {{ display: block; font-weight: 400; }}
 input {{
     width: 76px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
     border: 1px solid {PRESET_GHOST}; border-radius: 4px;

@@ -8,15 +8,17 @@ function element(name, words = "", properties = {}) {
   return made
 }
 
-function header(model) {
-  const row = element("tr")
-  row.append(element("th", "Band, Hz", {scope: "col"}), element("th", model.given, {scope: "col"}))
-  for (const {name, colour, dash, about} of model.columns) {
-    const cell = element("th", "", {scope: "col"})
-    cell.append(swatch(colour, dash), element("span", name, {className: "name", title: name}), element("small", about))
-    row.append(cell)
+function headers(model) {
+  const names = element("tr")
+  const parts = element("tr")
+  for (const words of ["Band, Hz", model.given]) names.append(element("th", words, {scope: "col", rowSpan: 2}))
+  for (const design of model.designs) {
+    const cell = element("th", "", {scope: "colgroup", colSpan: design.parts.length})
+    cell.append(swatch(design.colour, design.dash), element("span", design.name, {className: "name"}))
+    names.append(cell)
+    parts.append(...design.parts.map(({words}) => element("th", words, {scope: "col"})))
   }
-  return row
+  return [names, parts]
 }
 
 function swatch(colour, dash) {
@@ -67,10 +69,10 @@ export function render({model}) {
   body.append(...rows)
 
   function show() {
-    head.replaceChildren(header(model))
+    head.replaceChildren(...headers(model))
     rows.forEach((row, place) => {
       while (row.children.length > 2) row.lastChild.remove()
-      for (const {cells} of model.columns) {
+      for (const {cells} of model.designs.flatMap(({parts}) => parts)) {
         const [words, fails] = cells[place]
         row.append(element("td", words, {className: fails ? "fails" : ""}))
       }
@@ -84,7 +86,7 @@ export function render({model}) {
     })
   }
 
-  model.on("columns", show)
+  model.on("designs", show)
   model.on("values", showValues)
   model.on("msg:custom", (message) => {
     if (message.kind === "refused") boxes[message.band].setAttribute("aria-invalid", "true")

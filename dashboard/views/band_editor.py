@@ -26,8 +26,8 @@ NUMBER = re.compile(r"[+-]?(\d{1,20}([.,]\d{0,20})?|[.,]\d{1,20})", re.ASCII)
 """What may be typed into a box; the minus sign of typesetters becomes a hyphen first."""
 
 
-PASTE_WIDTH = 280
-"""Width of what stands beside the table [px]."""
+WIDE, NARROW = {"xs": 12, "lg": 9}, {"xs": 12, "lg": 3}
+"""Parts of the width that the table has, and what stands beside it, or below on a narrow screen."""
 
 
 class BandGrid(Scripted):
@@ -38,8 +38,9 @@ class BandGrid(Scripted):
     words = param.String(doc="Caption of the table.")
     most = param.Integer(default=MOST_BYTES, doc="Characters that may be pasted.")
     values = param.List(default=[""] * len(tig.BAND_LABELS), doc="Texts of the boxes.")
-    columns = param.List(
-        default=[], doc="Per design its name, colour, dash, what its cells are, and (text, fails) per band."
+    designs = param.List(
+        default=[],
+        doc="Name, colour, dash and parts of each design; a part has words and (text, fails) per band.",
     )
 
     _esm = SCRIPT.read_text(encoding="utf-8")
@@ -96,7 +97,7 @@ class BandEditor(Viewer):
             rows=8,
             max_length=MOST_BYTES,
             sizing_mode="stretch_width",
-            margin=(4, 0, 4, 0),
+            margin=(4, 12, 4, 12),
         )
         self.apply = _button("Take what is pasted", "content_paste_go", on_click=self._take_area)
         self.load = _button("Open CSV", "upload_file", js_on_click=opening(name))
@@ -191,9 +192,10 @@ class BandEditor(Viewer):
         return pmui.Column(
             pmui.FlexBox(self.load, self.template, self.save, self.clear, margin=(0, 12, 0, 12), gap="4px"),
             self.message,
-            pmui.Row(
-                self.grid,
-                pmui.Column(self.pasted, self.apply, width=PASTE_WIDTH, margin=(0, 12, 8, 0)),
+            pmui.Grid(
+                pmui.Grid(self.grid, size=WIDE),
+                pmui.Grid(pmui.Column(self.pasted, self.apply, sizing_mode="stretch_width"), size=NARROW),
+                container=True,
                 sizing_mode="stretch_width",
                 margin=0,
             ),

@@ -90,6 +90,7 @@ class Compare(Viewer):
     def look(self, in_sight):
         """Note whether the tab is in sight; if so, show what has changed meanwhile."""
         self._in_sight = in_sight
+        self._offer_bases()
         self._show()
 
     def _pin_table_1(self, _):
@@ -107,6 +108,9 @@ class Compare(Viewer):
             self._on_figure_2()
 
     def _offer_bases(self, *_):
+        # a select that was never drawn cannot take new options
+        if not self._in_sight:
+            return
         options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
         self.base.param.update(options=options, value=self._pins.base or HAND)
 

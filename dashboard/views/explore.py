@@ -111,13 +111,13 @@ class Explore(Viewer):
             pmui.Row(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
-                self.verdict,
                 self.show_hand,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
             ),
             pmui.Typography(GAIN_WORDS, variant="body2", color="text.secondary", margin=(0, 12, 4, 12)),
+            self.verdict,
             gain_pane,
             **PAPER,
         )

@@ -40,7 +40,7 @@ class LevelView(Viewer):
             label="Difference from",
             options={HAND_NAME: HAND},
             width=240,
-            margin=(0, 12, 0, 12),
+            margin=(4, 12, 6, 12),
             stylesheets=[style.SELECT_CSS],
         )
         self.table = pn.pane.HTML(
@@ -50,11 +50,10 @@ class LevelView(Viewer):
             workshop, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
         )
         self.base.param.watch(self._choose, "value")
-        pins.param.watch(self._offer, ["pinned", "base"])
+        pins.param.watch(self._show, ["pinned", "base"])
         workshop.param.watch(self._show, "assessed")
-        self._offer()
 
-    def _offer(self, *_):
+    def _offer(self):
         options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
         self.base.param.update(options=options, value=self._pins.base or HAND)
 
@@ -67,18 +66,17 @@ class LevelView(Viewer):
         self._show()
 
     def _show(self, *_):
+        # a select that was never drawn cannot take new options
         if not self._in_sight:
             return
+        self._offer()
         self.table.object = levels_html(self._workshop.shown, self._workshop.source, self._workshop.base)
-        self.editor.grid.columns = [_column(each) for each in self._workshop.shown if each.level is not None]
+        self.editor.grid.designs = [_design(each) for each in self._workshop.shown if each.level is not None]
 
     def __panel__(self):
         """Return what is put on the page."""
-        heading = pmui.Row(
-            caption("Level with the track", WORDS), pn.HSpacer(), self.base, sizing_mode="stretch_width"
-        )
         return pmui.Column(
-            pmui.Paper(heading, self.table, **PAPER),
+            pmui.Paper(caption("Level with the track", WORDS), self.base, self.table, **PAPER),
             pmui.Paper(caption("Source", SOURCE_WORDS), self.editor, **PAPER),
             sizing_mode="stretch_width",
             margin=(0, 8, 8, 8),
@@ -128,7 +126,7 @@ def _row(mark, name, level, base):
     return f'<tr><th scope="row">{mark}<span class="name">{name}</span></th>{cells}</tr>'
 
 
-def _column(assessed):
+def _design(assessed):
     cells = [["" if np.isnan(level) else style.plain_text(level), False] for level in assessed.level.bands]
-    look = {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash)}
-    return {**look, "about": "level, dB", "cells": cells}
+    parts = [{"words": "level", "cells": cells}]
+    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}

@@ -52,7 +52,7 @@ class SpecificationView(Viewer):
         if not self._in_sight:
             return
         self.verdict.object = verdicts_html(self._workshop.assessed)
-        self.editor.grid.columns = [column for each in self._workshop.shown for column in _columns(each)]
+        self.editor.grid.designs = [_design(each) for each in self._workshop.shown]
 
     def __panel__(self):
         """Return what is put on the page."""
@@ -67,20 +67,18 @@ class SpecificationView(Viewer):
 WORDS = "bands without a limit say nothing; a margin of exactly 0 dB complies"
 
 
-def _columns(assessed):
+def _design(assessed):
     """Return the columns of a design: its insertion gain, and its margin if there is a limit."""
-    look = {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash)}
     verdict = assessed.verdict
     fails = np.zeros(assessed.levels.size, bool) if verdict is None else verdict.fails
-    cells = [
+    gains = [
         [style.signed_text(level), bool(failing)]
         for level, failing in zip(assessed.levels, fails, strict=True)
     ]
-    columns = [{**look, "about": "gain, dB", "cells": cells}]
+    parts = [{"words": "gain", "cells": gains}]
     if verdict is not None:
-        margins = [_margin_cell(margin) for margin in verdict.margins]
-        columns.append({**look, "about": "margin, dB", "cells": margins})
-    return columns
+        parts.append({"words": "margin", "cells": [_margin_cell(margin) for margin in verdict.margins]})
+    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}
 
 
 def _margin_cell(margin):

@@ -25,7 +25,7 @@ class ShortVerdict(Viewer):
     def __init__(self, workshop):
         super().__init__()
         self._workshop = workshop
-        self.pane = pn.pane.HTML("", stylesheets=[style.VERDICT_CSS], margin=(6, 12, 0, 12))
+        self.pane = pn.pane.HTML("", stylesheets=[style.VERDICT_CSS], margin=(0, 12, 2, 12))
         workshop.param.watch(self._show, "assessed")
         self._show()
 
