@@ -149,7 +149,6 @@ def page(sidebar, status, main, browser, exchange):
     # the page would follow a flag that all sessions of the process share, and would never let go of it
     with edit_readonly(whole):
         whole.busy = Busy().param.value
-    browser.link(whole, dark="dark_theme", bidirectional=True)
     return whole
 
 

@@ -84,8 +84,11 @@ TICK_SIZES, AXIS_SIZES = ("14px", "17px"), ("15px", "17px")
 LEGEND_LINE, LEGEND_ALPHA = 40, 0.75
 """Length of a legend's lines, long enough for any dash [px], and how little is seen through it."""
 
-LEGEND_ROWS = 5
+LEGEND_ROWS = 3
 """Entries of a legend in one column; more make two."""
+
+LEGEND_NAME = 24
+"""Characters of a name in a legend, so that the curves are seen beside it."""
 
 SECOND_DASH = [7, 3]
 """Tells the second of two curves from the first without colour."""
@@ -156,7 +159,7 @@ HIDDEN_LABEL = {
 
 LEFT_ALIGNED = {
     "& input": {"padding": "5px 8px", "textAlign": "left"},
-    "& input::placeholder": {"opacity": "0.7 !important"},
+    "&& label + .MuiInputBase-formControl .MuiInputBase-input::placeholder": {"opacity": "0.7 !important"},
 }
 """The same for words."""
 

@@ -13,7 +13,7 @@ from dashboard.compare_figures import BaseDifferenceFigure
 from dashboard.pins import PinError
 from dashboard.state import display_values
 from dashboard.views.comparison_table import Column, table_html
-from dashboard.views.explore import CHOICE_WIDTH, PAPER, bokeh_pane, caption
+from dashboard.views.explore import PAPER, bokeh_pane, caption
 from dashboard.views.pin_list import PinList, tell
 
 FEW_BANDS = ("16", "31.5", "63", "125", "250")
@@ -63,7 +63,7 @@ class Compare(Viewer):
         self.base = pn.widgets.Select(
             label="Differences from",
             options={HAND_NAME: HAND},
-            width=CHOICE_WIDTH,
+            width=BASE_WIDTH,
             margin=(0, 12, 4, 12),
             stylesheets=[style.SELECT_CSS],
         )
@@ -188,5 +188,7 @@ class Compare(Viewer):
             margin=(0, 8, 8, 8),
         )
 
+
+BASE_WIDTH = 300
 
 BUTTON = {"size": "small", "variant": "outlined", "margin": (6, 8, 4, 0)}

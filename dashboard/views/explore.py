@@ -51,7 +51,7 @@ class Explore(Viewer):
             variant="outlined",
             visible=pins.param.alone,
             on_click=lambda _: pins.param.update(alone=False),
-            margin=(2, 0, 0, 10),
+            margin=(0, 12, 0, 0),
         )
         self.choices = [
             pn.widgets.Select.from_param(
@@ -111,12 +111,22 @@ class Explore(Viewer):
             pmui.Row(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
-                self.show_hand,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
             ),
-            pmui.Typography(GAIN_WORDS, variant="body2", color="text.secondary", margin=(0, 12, 4, 12)),
+            pmui.Row(
+                pmui.Typography(
+                    GAIN_WORDS,
+                    variant="body2",
+                    color="text.secondary",
+                    sizing_mode="stretch_width",
+                    margin=(0, 12, 4, 12),
+                ),
+                self.show_hand,
+                sizing_mode="stretch_width",
+                margin=0,
+            ),
             self.verdict,
             gain_pane,
             **PAPER,
@@ -145,7 +155,7 @@ GAIN_WORDS = (
     "coherent force lets them cancel; it matters above resonance."
 )
 
-CHOICE_WIDTH = 240
+CHOICE_WIDTH = 205
 
 PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": style.PANEL}
 """What a panel of the page is made of."""
