@@ -15,6 +15,9 @@ from dashboard.browser import Browser
 from dashboard.checker import Checker
 from dashboard.controls import Controls
 from dashboard.curves import PinnedCurves
+from dashboard.exchange import Exchange
+from dashboard.exchange import tell as tell_user
+from dashboard.keeping import Keeping
 from dashboard.pinned import PinnedPictures
 from dashboard.pins import Pins
 from dashboard.runner import Runner, shared_live_store, shared_store
@@ -22,12 +25,18 @@ from dashboard.state import DesignInputs, Outcome, Presentation
 from dashboard.views.compare import Compare
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
+from dashboard.views.keep import Keep, copy_button
+from dashboard.views.level import LevelView
+from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
 from dashboard.views.track import Track
 from dashboard.views.verify import Verify
+from dashboard.workshop import Workshop
 
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
+
+CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
 
 log = logging.getLogger(__name__)
 
@@ -51,54 +60,84 @@ def build(store=None, live_store=None):
     panel_material_ui.Page
         The page, its first design solved or being solved.
     """
-    pn.extension(notifications=True, reconnect=True, exception_handler=tell)
-    inputs, outcome, presentation = DesignInputs(), Outcome(), Presentation()
+    pn.extension(
+        notifications=True, reconnect=False, exception_handler=tell, disconnect_notification=CONNECTION_LOST
+    )
+    inputs, outcome, presentation, pins = DesignInputs(), Outcome(), Presentation(), Pins()
     store = store or shared_store()
+    pinned = PinnedPictures(pins, store)
+    curves = PinnedCurves(pins, pinned, presentation)
+    workshop = Workshop(outcome, presentation, pins, pinned, curves)
+    keeping = Keeping(inputs, presentation, pins, workshop, [view.title.lower() for view in VIEWS])
+    problems = keeping.follow(pn.state.session_args)
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
     Checker(outcome)
-    pins = Pins()
-    pinned = PinnedPictures(pins, store)
-    curves = PinnedCurves(pins, pinned, presentation)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
-    browser = Browser(width=0, height=0, margin=0)
+    pn.state.onload(lambda: tell_problems(problems))
+    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(keeping)
 
     def show_insertion_gain():
-        shown.active = 0
+        keeping.tab = Explore.title.lower()
 
     views = [
-        Explore(outcome, presentation, pins, curves),
+        Explore(outcome, presentation, pins, curves, workshop),
         Compare(inputs, outcome, presentation, pins, pinned, curves, show_insertion_gain),
+        SpecificationView(workshop, exchange),
+        LevelView(workshop, pins, exchange),
         Track(inputs, outcome),
         Verify(outcome, presentation),
+        Keep(keeping, exchange),
     ]
-    shown = tabs(outcome, views)
     status = Status(outcome, runner.stop, runner.solve_again)
-    return page([DesignBar(inputs, pins, browser), Controls(inputs)], status, shown, browser)
+    sidebar = [DesignBar(inputs, pins, browser), Controls(inputs)]
+    return page(sidebar, status, tabs(outcome, keeping, views), browser, exchange)
 
 
-def tabs(outcome, views):
+VIEWS = (Explore, Compare, SpecificationView, LevelView, Track, Verify, Keep)
+"""The tabs, in their order; a link names one by its title."""
+
+
+def tabs(outcome, keeping, views):
     """Return the views as tabs; those that work only while somebody looks are told when they are in sight."""
+    names = [view.title.lower() for view in views]
     shown = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
 
-    def tell_outcome(event):
-        outcome.checking = isinstance(views[event.new], Verify)
+    def tell_views(*_):
+        active = views[shown.active]
+        keeping.tab = names[shown.active]
+        outcome.checking = isinstance(active, Verify)
         for view in views:
-            if isinstance(view, (Compare, Track)):
-                view.look(view is views[event.new])
+            if isinstance(view, (Compare, LevelView, SpecificationView, Track)):
+                view.look(view is active)
 
-    shown.param.watch(tell_outcome, "active")
+    def open_tab(*_):
+        shown.active = names.index(keeping.tab)
+
+    open_tab()
+    tell_views()
+    shown.param.watch(tell_views, "active")
+    keeping.param.watch(open_tab, "tab")
     return shown
 
 
-def page(sidebar, status, main, browser):
+def tell_problems(problems):
+    """Tell the user what of a link could not be followed."""
+    for words in problems:
+        tell_user("warning", words)
+
+
+def page(sidebar, status, main, browser, exchange):
     """Return the page around sidebar, status line and tabs; its theme is the one that the browser keeps."""
     whole = pmui.Page(
         title=TITLE,
         header=[
             pmui.Typography(SUBTITLE, variant="body1", sx=style.SUBTITLE, margin=(4, 0, 0, 16)),
+            pn.HSpacer(),
+            copy_button(),
             browser,
+            exchange,
         ],
         sidebar=sidebar,
         main=[status, main],
@@ -110,7 +149,6 @@ def page(sidebar, status, main, browser):
     # the page would follow a flag that all sessions of the process share, and would never let go of it
     with edit_readonly(whole):
         whole.busy = Busy().param.value
-    browser.link(whole, dark="dark_theme", bidirectional=True)
     return whole
 
 

@@ -11,7 +11,6 @@ import param
 class Browser(pn.custom.JSComponent):
     """Listens to the browser; it has no size."""
 
-    dark = param.Boolean(default=False, doc="Whether the page is dark.")
     undone = param.Integer(default=0, doc="How often undo was asked for by key.")
     redone = param.Integer(default=0, doc="How often redo was asked for by key.")
 
@@ -30,12 +29,18 @@ class Browser(pn.custom.JSComponent):
       try { localStorage.setItem(KEY, dark ? "dark" : "light") } catch { /* as above */ }
     }
 
+    function follow_theme(page) {
+      if (page.class_name !== "Page") { return }
+      page.data.properties.dark_theme.change.connect(() => keep(page.data.dark_theme))
+      if (wanted() !== page.data.dark_theme) { setTimeout(() => { page.data.dark_theme = wanted() }, 0) }
+    }
+
     function is_text(target) {
       if (target?.isContentEditable || target?.tagName === "TEXTAREA") { return true }
       return target?.tagName === "INPUT" && !["range", "checkbox", "radio", "button"].includes(target.type)
     }
 
-    export function render({model}) {
+    export function render({model, view}) {
       const press = event => {
         if (!(event.ctrlKey || event.metaKey) || event.altKey || is_text(event.composedPath()[0])) { return }
         const key = event.key.toLowerCase()
@@ -46,8 +51,7 @@ class Browser(pn.custom.JSComponent):
       }
       document.addEventListener("keydown", press)
       model.on("remove", () => document.removeEventListener("keydown", press))
-      model.on("dark", () => keep(model.dark))
-      if (wanted() !== model.dark) { model.dark = wanted() }
+      follow_theme(view.root.model)
       return document.createElement("div")
     }
     """

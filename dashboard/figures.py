@@ -237,7 +237,7 @@ class PinnedLines:
         """Give as many lines as there are curves their names, colours and dashes, and hide the rest."""
         for line, entry, curve in zip(self.lines, self.entries, curves, strict=False):
             line.glyph.update(line_color=curve.colour, line_dash=list(curve.dash))
-            entry.label = value(curve.name)
+            entry.label = value(style.name_text(curve.name, style.LEGEND_NAME))
         for place, line in enumerate(self.lines):
             line.visible = place < len(curves)
 

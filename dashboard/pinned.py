@@ -9,10 +9,9 @@ import logging
 from functools import partial
 from types import MappingProxyType
 
-import panel as pn
 import param
 
-from dashboard.runner import AT_REST, LOOK_EVERY, Latest, readable
+from dashboard.runner import AT_REST, LOOK_EVERY, Latest, one_message, readable
 
 NOTHING = MappingProxyType({})
 
@@ -108,7 +107,7 @@ class PinnedPictures(param.Parameterized):
         if not self._wanted(pin):
             return
         try:
-            with pn.io.hold(document):
+            with one_message(document):
                 setattr(self, name, MappingProxyType({**getattr(self, name), pin.key: value}))
         except Exception:
             log.exception("A pinned design could not be drawn")

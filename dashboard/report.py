@@ -412,8 +412,8 @@ def _sources(lines, base, source):
         (
             line,
             [
-                f"{level.unweighted:.1f}".replace("-", "−"),
-                f"{level.a_weighted:.1f}".replace("-", "−"),
+                style.plain_text(level.unweighted),
+                style.plain_text(level.a_weighted),
                 *map(style.signed_text, level.relative_to(against)),
             ],
         )

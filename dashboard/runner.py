@@ -319,17 +319,42 @@ def publish(outcome, document, **changes):
     **changes
         New values by name.
     """
+    in_turn(document, partial(_apply, outcome, changes))
+
+
+def in_turn(document, change):
+    """Change what is drawn, when the session's document may change.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document or None
+        The session's document; None, or one that nobody looks at, may change at once.
+    change : callable
+        Makes the change; it is called with the document.
+    """
     if document is None or document.session_context is None:
-        _apply(outcome, changes)
+        change(document)
     else:
-        document.add_next_tick_callback(partial(_apply, outcome, changes, document))
+        document.add_next_tick_callback(partial(change, document))
 
 
-def _apply(outcome, changes, document=None):
+@contextlib.contextmanager
+def one_message(document):
+    """Send all that changes within to the browser in one message, so that it is drawn in one frame.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document or None
+        The session's document.
+    """
+    # before the page says that it is loaded, Panel drops what it holds, even if the browser has its document
+    with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
+        yield
+
+
+def _apply(outcome, changes, document):
     try:
-        # all that a frame changes goes to the browser in one message; before the page is loaded
-        # what is held would be lost
-        with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
+        with one_message(document):
             outcome.param.update(**changes)
     except Exception:
         log.exception("A solution could not be drawn")

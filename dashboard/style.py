@@ -84,8 +84,11 @@ TICK_SIZES, AXIS_SIZES = ("14px", "17px"), ("15px", "17px")
 LEGEND_LINE, LEGEND_ALPHA = 40, 0.75
 """Length of a legend's lines, long enough for any dash [px], and how little is seen through it."""
 
-LEGEND_ROWS = 5
+LEGEND_ROWS = 3
 """Entries of a legend in one column; more make two."""
+
+LEGEND_NAME = 24
+"""Characters of a name in a legend, so that the curves are seen beside it."""
 
 SECOND_DASH = [7, 3]
 """Tells the second of two curves from the first without colour."""
@@ -115,6 +118,11 @@ def signed_text(level):
     """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
     text = f"{level:+.1f}"
     return "0.0" if float(text) == 0 else text.replace("-", "−")
+
+
+def plain_text(level):
+    """Return a level [dB] that is no difference for a column of a table: one decimal, no unit."""
+    return f"{level:.1f}".replace("-", "−")
 
 
 LEAST_DIFFERENCE = 1e-6
@@ -151,7 +159,7 @@ HIDDEN_LABEL = {
 
 LEFT_ALIGNED = {
     "& input": {"padding": "5px 8px", "textAlign": "left"},
-    "& input::placeholder": {"opacity": "0.7 !important"},
+    "&& label + .MuiInputBase-formControl .MuiInputBase-input::placeholder": {"opacity": "0.7 !important"},
 }
 """The same for words."""
 
@@ -238,6 +246,60 @@ dl {{ display: grid; grid-template-columns: max-content 1fr; gap: 2px 12px; }}
 dl {{ margin: 12px 14px 10px 14px; font-size: 14px; }}
 dt {{ font-weight: 700; text-align: right; font-variant-numeric: tabular-nums; }}
 dd {{ margin: 0; }}
+"""
+
+COMPLIES, FAILS = COUPLED_BLOCK, SPECIFICATION
+"""Of verdicts; a sign and words say the same."""
+
+_TABLE_CSS = f"""
+:host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); overflow-x: auto; }}
+table {{ border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }}
+caption {{ position: absolute; clip-path: inset(50%); white-space: nowrap; }}
+th, td {{ padding: 1px 10px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
+th {{ font-weight: 600; }}
+td {{ white-space: nowrap; }}
+thead th {{ vertical-align: bottom; }}
+svg {{ width: 34px; height: 6px; margin: 0 8px 3px 0; vertical-align: middle; }}
+th {{ overflow-wrap: break-word; max-width: 220px; }}
+.fails {{ color: {FAILS}; font-weight: 700; }}
+"""
+
+BAND_GRID_CSS = f"""
+{_TABLE_CSS}
+thead th {{ border-bottom: none; }}
+thead tr + tr th {{ font-weight: 400; border-bottom: 1px solid {PRESET_GHOST}40; }}
+thead svg {{ display: block; margin: 0 0 2px auto; }}
+input {{
+    width: 76px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
+    border: 1px solid {PRESET_GHOST}; border-radius: 4px;
+}}
+input:focus {{ outline: 2px solid {THIS_DESIGN}; outline-offset: 0; }}
+input[aria-invalid] {{ border: 2px solid {FAILS}; }}
+"""
+
+LEVELS_CSS = f"""
+{_TABLE_CSS}
+table {{ font-size: 20px; }}
+thead th {{ font-size: 15px; }}
+th:first-child {{ text-align: left; }}
+p {{ margin: 0; font-size: 16px; }}
+"""
+
+VERDICT_CSS = f"""
+:host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
+p {{ margin: 0; font-size: 16px; }}
+ul {{ display: grid; grid-template-columns: max-content minmax(0, max-content) 1fr; gap: 4px 12px; }}
+ul {{ list-style: none; margin: 0; padding: 0; }}
+li {{ display: contents; font-size: 22px; line-height: 1.3; }}
+li svg {{ align-self: center; }}
+.name {{ overflow-wrap: anywhere; }}
+.complies {{ color: {COMPLIES}; font-weight: 700; }}
+.fails {{ color: {FAILS}; font-weight: 700; }}
+"""
+
+MESSAGE_CSS = f"""
+:host {{ font-family: var(--bokeh-base-font); }}
+div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS}; }}
 """
 
 REPORT_INK = "#1b2733"

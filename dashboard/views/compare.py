@@ -13,7 +13,7 @@ from dashboard.compare_figures import BaseDifferenceFigure
 from dashboard.pins import PinError
 from dashboard.state import display_values
 from dashboard.views.comparison_table import Column, table_html
-from dashboard.views.explore import CHOICE_WIDTH, PAPER, bokeh_pane, caption
+from dashboard.views.explore import PAPER, bokeh_pane, caption
 from dashboard.views.pin_list import PinList, tell
 
 FEW_BANDS = ("16", "31.5", "63", "125", "250")
@@ -63,7 +63,7 @@ class Compare(Viewer):
         self.base = pn.widgets.Select(
             label="Differences from",
             options={HAND_NAME: HAND},
-            width=CHOICE_WIDTH,
+            width=BASE_WIDTH,
             margin=(0, 12, 4, 12),
             stylesheets=[style.SELECT_CSS],
         )
@@ -90,6 +90,7 @@ class Compare(Viewer):
     def look(self, in_sight):
         """Note whether the tab is in sight; if so, show what has changed meanwhile."""
         self._in_sight = in_sight
+        self._offer_bases()
         self._show()
 
     def _pin_table_1(self, _):
@@ -107,6 +108,9 @@ class Compare(Viewer):
             self._on_figure_2()
 
     def _offer_bases(self, *_):
+        # a select that was never drawn cannot take new options
+        if not self._in_sight:
+            return
         options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
         self.base.param.update(options=options, value=self._pins.base or HAND)
 
@@ -184,5 +188,7 @@ class Compare(Viewer):
             margin=(0, 8, 8, 8),
         )
 
+
+BASE_WIDTH = 300
 
 BUTTON = {"size": "small", "variant": "outlined", "margin": (6, 8, 4, 0)}

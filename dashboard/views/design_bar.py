@@ -36,9 +36,11 @@ class DesignBar(Viewer):
         super().__init__()
         self._inputs, self._pins, self._clock = inputs, pins, clock
         self._history = History(inputs.to_values())
-        self.undo = pmui.Button(label="Undo", icon="undo", description="Ctrl+Z", on_click=self._undo, **STEP)
+        self.undo = pmui.Button(
+            label="Undo", icon="undo", description="Undo (Ctrl+Z)", on_click=self._undo, **STEP
+        )
         self.redo = pmui.Button(
-            label="Redo", icon="redo", description="Ctrl+Y or Ctrl+Shift+Z", on_click=self._redo, **STEP
+            label="Redo", icon="redo", description="Redo (Ctrl+Y)", on_click=self._redo, **STEP
         )
         self.name_box = pmui.TextInput(
             label="Name of the design to be pinned",
@@ -53,7 +55,7 @@ class DesignBar(Viewer):
         self.pin = pmui.Button(
             label="Pin",
             icon="push_pin",
-            description="Keep this design beside the next ones",
+            description="Pin this design",
             variant="contained",
             size="small",
             on_click=self._pin,

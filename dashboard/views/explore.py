@@ -10,6 +10,7 @@ from panel.viewable import Viewer
 from dashboard import style
 from dashboard.figures import ForceFigure, InsertionGainFigure
 from dashboard.views.frequencies import Frequencies
+from dashboard.views.verdict import ShortVerdict
 
 
 class Explore(Viewer):
@@ -25,17 +26,20 @@ class Explore(Viewer):
         Pinned designs, which are drawn behind it.
     curves : PinnedCurves
         What is drawn of them.
+    workshop : Workshop
+        Whose specification is drawn as a limit.
     """
 
     title = "Explore"
 
-    def __init__(self, outcome, presentation, pins, curves):
+    def __init__(self, outcome, presentation, pins, curves, workshop):
         super().__init__()
         self._outcome, self._presentation = outcome, presentation
-        self._pins, self._curves = pins, curves
+        self._pins, self._curves, self._workshop = pins, curves, workshop
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
+        self.verdict = ShortVerdict(workshop)
         self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
             label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
@@ -47,7 +51,7 @@ class Explore(Viewer):
             variant="outlined",
             visible=pins.param.alone,
             on_click=lambda _: pins.param.update(alone=False),
-            margin=(2, 0, 0, 10),
+            margin=(0, 12, 0, 0),
         )
         self.choices = [
             pn.widgets.Select.from_param(
@@ -59,6 +63,7 @@ class Explore(Viewer):
         outcome.param.watch(self._dim, ["problem", "progress"])
         presentation.param.watch(self._show_gain, ["reference", "summation"])
         pins.param.watch(self._show_gain, "alone")
+        workshop.param.watch(self._show_gain, "specification")
         curves.param.watch(self._show_all, ["gains", "forces"])
         self._show_all()
 
@@ -83,6 +88,7 @@ class Explore(Viewer):
         chosen = self._presentation
         self.insertion_gain.name_axis(gain_axis(chosen))
         picture, preset = self._outcome.picture, self._outcome.preset_picture
+        specification = self._workshop.specification
         if picture is None:
             return
         self.insertion_gain.show(
@@ -90,6 +96,7 @@ class Explore(Viewer):
             None if preset is None else chosen.levels(preset.solution),
             picture.solution.natural_frequencies,
             curves=self._curves.gains,
+            limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
         )
 
@@ -104,12 +111,23 @@ class Explore(Viewer):
             pmui.Row(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
-                self.show_hand,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
             ),
-            pmui.Typography(GAIN_WORDS, variant="body2", color="text.secondary", margin=(0, 12, 4, 12)),
+            pmui.Row(
+                pmui.Typography(
+                    GAIN_WORDS,
+                    variant="body2",
+                    color="text.secondary",
+                    sizing_mode="stretch_width",
+                    margin=(0, 12, 4, 12),
+                ),
+                self.show_hand,
+                sizing_mode="stretch_width",
+                margin=0,
+            ),
+            self.verdict,
             gain_pane,
             **PAPER,
         )
@@ -137,7 +155,7 @@ GAIN_WORDS = (
     "coherent force lets them cancel; it matters above resonance."
 )
 
-CHOICE_WIDTH = 240
+CHOICE_WIDTH = 205
 
 PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": style.PANEL}
 """What a panel of the page is made of."""

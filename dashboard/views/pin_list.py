@@ -37,7 +37,7 @@ class PinRow(Viewer):
     def __init__(self, inputs, pins, key):
         super().__init__()
         self._inputs, self._pins, self._key = inputs, pins, key
-        self.swatch = pn.pane.HTML("", width=36, margin=(10, 4, 0, 4), stylesheets=[style.SWATCH_CSS])
+        self.swatch = pn.pane.HTML("", width=36, margin=(18, 4, 0, 4), stylesheets=[style.SWATCH_CSS])
         self.name_box = pmui.TextInput(
             label="Name of the design",
             max_length=LONGEST_NAME,
@@ -46,7 +46,7 @@ class PinRow(Viewer):
             sizing_mode="stretch_width",
             min_width=120,
             sx=style.HIDDEN_LABEL | style.LEFT_ALIGNED,
-            margin=(4, 4, 0, 0),
+            margin=(9, 4, 0, 0),
         )
         self.colour = pn.widgets.Select(
             label="Colour",
@@ -55,7 +55,7 @@ class PinRow(Viewer):
             margin=(0, 4, 0, 4),
             stylesheets=[style.SELECT_CSS],
         )
-        self.shown = pmui.Checkbox(label="Show", margin=(0, 4, 0, 4), size="small")
+        self.shown = pmui.Checkbox(label="Show", margin=(7, 4, 0, 4), size="small")
         self.use = pmui.Button(label="Use", on_click=self._use, **BUTTON)
         self.remove = pmui.Button(label="Remove", on_click=lambda _: pins.remove(key), **BUTTON)
         self.show(pins[key])
@@ -99,7 +99,7 @@ class PinRow(Viewer):
         return self._row
 
 
-BUTTON = {"size": "small", "variant": "text", "margin": (2, 2, 0, 2)}
+BUTTON = {"size": "small", "variant": "text", "margin": (7, 2, 0, 2)}
 
 
 class PinList(Viewer):

@@ -5,11 +5,17 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
 import panel as pn
+import param
 import pytest
 
 import trackig_core as tig
+from dashboard.curves import PinnedCurves
+from dashboard.keeping import Keeping
+from dashboard.pins import Pins
 from dashboard.runner import AT_REST, take_picture
+from dashboard.state import DesignInputs, Outcome, Presentation, preset_values
 from dashboard.store import SolutionStore
+from dashboard.workshop import Workshop
 
 
 @cache
@@ -53,6 +59,42 @@ def make_store():
 def instant_store(make_store, fake_picture):
     """Return a store that answers at once with pictures that were never solved."""
     return make_store(lambda key, *_: fake_picture(key[0], fidelity=key[1]))
+
+
+@pytest.fixture
+def session(picture):
+    """Return the state of a session: its plain parts, with pictures that a test puts there."""
+    return Session(picture)
+
+
+class Session:
+    """All plain parts of a session, put together as the page does."""
+
+    def __init__(self, picture):
+        self._picture = picture
+        self.inputs, self.outcome, self.presentation = DesignInputs(), Outcome(), Presentation()
+        self.pins, self.pinned = Pins(), Pictures()
+        curves = PinnedCurves(self.pins, self.pinned, self.presentation)
+        self.workshop = Workshop(self.outcome, self.presentation, self.pins, self.pinned, curves)
+        tabs = ("explore", "specification", "level", "keep")
+        self.keeping = Keeping(self.inputs, self.presentation, self.pins, self.workshop, tabs)
+
+    def show(self, preset):
+        """Put a preset on the screen, solved."""
+        self.inputs.preset = preset
+        self.outcome.picture = self._picture(preset)
+
+    def pin(self, preset, name=""):
+        """Pin a preset, solved, and return the pin."""
+        pin = self.pins.add(preset_values(preset), name)
+        self.pinned.pictures = {**self.pinned.pictures, pin.key: self._picture(preset)}
+        return pin
+
+
+class Pictures(param.Parameterized):
+    """Pictures of pins, put there by a test."""
+
+    pictures = param.Dict(default={})
 
 
 @pytest.fixture(autouse=True)

@@ -14,6 +14,7 @@ from dashboard.style import duration_text
 from dashboard.views.explore import Explore
 from dashboard.views.frequencies import Frequencies, frequencies_html
 from dashboard.views.status import Status, status_html, status_words
+from dashboard.workshop import Workshop
 
 
 @pytest.fixture
@@ -29,8 +30,10 @@ class Pictures(param.Parameterized):
 
 def explore(outcome, presentation, pins=None, pinned=None):
     """Return the view, with pins and pictures of theirs if a test gives them."""
-    pins = pins or Pins()
-    return Explore(outcome, presentation, pins, PinnedCurves(pins, pinned or Pictures(), presentation))
+    pins, pinned = pins or Pins(), pinned or Pictures()
+    curves = PinnedCurves(pins, pinned, presentation)
+    workshop = Workshop(outcome, presentation, pins, pinned, curves)
+    return Explore(outcome, presentation, pins, curves, workshop)
 
 
 def test_the_status_follows_a_solve(outcome, picture):

@@ -1,0 +1,134 @@
+// What the server cannot do without the browser: the address bar, the clipboard, files, and a memory that outlives the server.
+//
+// The one rule: what is kept is never overwritten before it was offered to a server that does not know it.
+
+const MEMORY = "trackig"
+const PATIENCE = 8000 // ms until a plot in another tab must have been drawn
+const LOOK_EVERY = 500 // ms between looks whether the server is back
+
+const pause = (time) => new Promise((resolve) => setTimeout(resolve, time))
+
+function remembered() {
+  try {
+    return JSON.parse(sessionStorage.getItem(MEMORY))
+  } catch {
+    return null
+  }
+}
+
+function keep(model) {
+  const [query, study] = model.kept
+  if (query === "") return
+  history.replaceState(null, "", `${location.pathname}?${query}`)
+  try {
+    const memory = {session: model.session, query: location.search, study}
+    sessionStorage.setItem(MEMORY, JSON.stringify(memory))
+  } catch {
+    // a browser that refuses to remember still has the address bar
+  }
+}
+
+function resume(model) {
+  const memory = remembered()
+  const ours = memory !== null && memory.session !== model.session && memory.query === location.search
+  if (ours && memory.study !== model.kept[1]) {
+    model.send_msg({kind: "restore", data: memory.study})
+  } else {
+    keep(model)
+  }
+}
+
+async function copyLink(model) {
+  let copied = true
+  try {
+    await navigator.clipboard.writeText(location.href)
+  } catch {
+    // pages that are not served over HTTPS have no clipboard, but they have this
+    const box = document.createElement("textarea")
+    box.value = location.href
+    document.body.append(box)
+    box.select()
+    copied = document.execCommand("copy")
+    box.remove()
+  }
+  model.send_msg({kind: "copied", data: copied})
+}
+
+function save(name, blob) {
+  const link = document.createElement("a")
+  link.href = URL.createObjectURL(blob)
+  link.download = name
+  document.body.append(link)
+  link.click()
+  link.remove()
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000)
+}
+
+function choose(model, purpose, accept, most) {
+  const input = document.createElement("input")
+  input.type = "file"
+  input.accept = accept
+  input.hidden = true
+  document.body.append(input)
+  input.addEventListener("cancel", () => input.remove())
+  input.addEventListener("change", async () => {
+    // of a file that is too large, enough is sent to tell
+    const data = await input.files[0].slice(0, most + 1).arrayBuffer()
+    model.send_msg({kind: purpose, data})
+    input.remove()
+  })
+  input.click()
+}
+
+function drawn(name) {
+  const figure = Bokeh.documents.map((each) => each.get_model_by_name(name)).find((each) => each != null)
+  const view = figure === undefined ? null : Bokeh.index.find_one(figure)
+  return view != null && view.el.isConnected && view.el.getBoundingClientRect().width > 0 ? view : null
+}
+
+async function savePlot(model, name, format, file) {
+  const elsewhere = drawn(name) === null
+  if (elsewhere) model.send_msg({kind: "show", data: name})
+  for (let waited = 0; waited < PATIENCE; waited += 100) {
+    const view = drawn(name)
+    if (view !== null && view.bbox.width > 0) {
+      const layer = view.export(format, true)
+      save(file, await layer.to_blob())
+      if (elsewhere) model.send_msg({kind: "back"})
+      return
+    }
+    await pause(100)
+  }
+  model.send_msg({kind: "not_drawn", data: name})
+}
+
+// Bokeh would take up a session where it was, but loses the arrays in it, and would fill this page with that of a
+// restarted server, made for the address as it was at first. Loaded anew, the page comes back as it is now.
+async function comeBack() {
+  const file = document.querySelector("script[src*='static/']").src
+  for (;;) {
+    await pause(LOOK_EVERY)
+    try {
+      if ((await fetch(file, {method: "HEAD", cache: "no-store"})).ok) break
+    } catch {
+      // not yet
+    }
+  }
+  location.reload()
+}
+
+export function render({model, view}) {
+  model.on("kept", () => keep(model))
+  model.on("msg:custom", (message) => {
+    if (message.kind === "keep") keep(model)
+    if (message.kind === "save") save(message.name, new Blob([message.text], {type: message.type}))
+  })
+  view.model.document.on_event("connection_lost", comeBack)
+  window.trackig = {
+    copyLink: () => copyLink(model),
+    choose: (...rest) => choose(model, ...rest),
+    savePlot: (...rest) => savePlot(model, ...rest),
+  }
+  resume(model)
+  return document.createElement("span")
+}

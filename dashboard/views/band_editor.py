@@ -1,0 +1,214 @@
+"""One value per band, as a user gives it: typed into a table, pasted, or opened from a file.
+
+The one rule: what is given is taken as a whole or not at all; then a message says where it is at fault,
+and what was there stays.
+"""
+
+import html
+import re
+from pathlib import Path
+from typing import ClassVar
+
+import panel as pn
+import panel_material_ui as pmui
+import param
+from panel.viewable import Viewer
+
+import trackig_core as tig
+from dashboard import style
+from dashboard.exchange import Scripted, opening
+from dashboard.exports import file_name
+from trackig_core.band_table import MOST_BYTES, NOMINAL
+
+SCRIPT = Path(__file__).parent.parent / "scripts" / "band_grid.js"
+
+NUMBER = re.compile(r"[+-]?(\d{1,20}([.,]\d{0,20})?|[.,]\d{1,20})", re.ASCII)
+"""What may be typed into a box; the minus sign of typesetters becomes a hyphen first."""
+
+
+WIDE, NARROW = {"xs": 12, "lg": 9}, {"xs": 12, "lg": 3}
+"""Parts of the width that the table has, and what stands beside it, or below on a narrow screen."""
+
+
+class BandGrid(Scripted):
+    """The table: boxes for the values given, and columns of what came of them."""
+
+    bands = param.List(default=list(tig.BAND_LABELS), doc="Names of the rows.")
+    given = param.String(doc="Header of the column of boxes.")
+    words = param.String(doc="Caption of the table.")
+    most = param.Integer(default=MOST_BYTES, doc="Characters that may be pasted.")
+    values = param.List(default=[""] * len(tig.BAND_LABELS), doc="Texts of the boxes.")
+    designs = param.List(
+        default=[],
+        doc="Name, colour, dash and parts of each design; a part has words and (text, fails) per band.",
+    )
+
+    _esm = SCRIPT.read_text(encoding="utf-8")
+    _stylesheets: ClassVar = [style.BAND_GRID_CSS]
+
+    on_typed = None
+    on_pasted = None
+
+    def heed(self, message):
+        """Hand on what was typed or pasted."""
+        last = len(self.bands) - 1
+        match message:
+            case {"kind": "typed", "band": int(band), "text": str(text)} if 0 <= band <= last:
+                self.on_typed(band, text)
+            case {"kind": "pasted", "band": int(band), "text": str(text)} if 0 <= band <= last:
+                self.on_pasted(band, text)
+
+    def refuse(self, band):
+        """Mark the box of a band: what it holds was not taken."""
+        self._send_msg({"kind": "refused", "band": band})
+
+    def show_again(self):
+        """Put the values back into the boxes, whatever was typed."""
+        self._send_msg({"kind": "again"})
+
+
+class BandEditor(Viewer):
+    """A table of levels per band, and the ways to fill it.
+
+    Parameters
+    ----------
+    workshop : Workshop
+        Where the table is kept.
+    name : str
+        Which of its tables: ``"specification"`` or ``"source"``.
+    exchange : Exchange
+        Saves the template, and opens files.
+    given : str
+        What is given per band, as a header.
+    words : str
+        Caption of the table.
+    """
+
+    def __init__(self, workshop, name, exchange, given, words):
+        super().__init__()
+        self._workshop, self._name, self._exchange = workshop, name, exchange
+        self._kind = workshop.param[name].class_
+        self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
+        self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
+        self.message = pn.pane.HTML("", stylesheets=[style.MESSAGE_CSS], margin=(0, 12, 4, 12))
+        self.pasted = pmui.TextAreaInput(
+            label="Paste: Hz and dB",
+            placeholder="31.5\t-6\n40\t-8",
+            rows=8,
+            max_length=MOST_BYTES,
+            sizing_mode="stretch_width",
+            margin=(4, 12, 4, 12),
+        )
+        self.apply = _button("Take what is pasted", "content_paste_go", on_click=self._take_area)
+        self.load = _button("Open CSV", "upload_file", js_on_click=opening(name))
+        self.template = _button("Template", "download", on_click=self._save_template)
+        self.save = _button("Save CSV", "download", on_click=self._save)
+        self.clear = _button("Clear", "delete", on_click=self._clear)
+        exchange.on_file(name, self.take)
+        workshop.param.watch(self._show, name)
+        self._show()
+
+    @property
+    def table(self):
+        """The table as it is kept, or None."""
+        return getattr(self._workshop, self._name)
+
+    def take(self, data):
+        """Take a whole table, as bytes or text, or say why not."""
+        try:
+            table = self._kind.from_csv(data)
+        except tig.BandTableError as error:
+            self._tell(f"Not taken: {error}.")
+            return False
+        self._keep(table)
+        return True
+
+    def _take_area(self, *_):
+        if self.take(self.pasted.value):
+            self.pasted.value = ""
+
+    def _take_pasted(self, band, text):
+        """Take what was pasted into a box: a table, or a single column that begins at the box."""
+        lines = text.strip().splitlines()
+        if any(re.search(r"[\t;]|\S\s+\S", line.strip()) for line in lines):
+            self.take(text)
+            return
+        values = [_number(line) for line in lines]
+        if None in values or band + len(values) > len(NOMINAL):
+            self._tell(
+                f"Not taken: give one number a line, {len(NOMINAL) - band} at most from "
+                f"{tig.BAND_LABELS[band]} Hz on, or two columns, Hz and dB."
+            )
+            return
+        self._change(dict(zip(NOMINAL[band:], values, strict=False)), band)
+
+    def _take_typed(self, band, text):
+        level = _number(text) if text.strip() else None
+        if text.strip() and level is None:
+            self._refuse(band, f"give {self._kind.quantity.allowed}, or nothing")
+        else:
+            self._change({NOMINAL[band]: level}, band)
+
+    def _change(self, levels, band):
+        """Set levels by frequency, None to take one out; a fault is told at a band."""
+        points = {**dict(self.table.points if self.table is not None else ()), **levels}
+        points = [(frequency, level) for frequency, level in points.items() if level is not None]
+        try:
+            self._keep(
+                self._kind(points, self.table.name if self.table else self._kind.name) if points else None
+            )
+        except tig.BandTableError:
+            self._refuse(band, f"give {self._kind.quantity.allowed}, or nothing")
+
+    def _refuse(self, band, words):
+        self._tell(f"Not taken: {tig.BAND_LABELS[band]} Hz: {words}.")
+        self.grid.refuse(band)
+
+    def _keep(self, table):
+        self._tell("")
+        setattr(self._workshop, self._name, table)
+        # the box of a number that was typed in another form, or refused, shows the number as it is kept
+        self.grid.show_again()
+
+    def _tell(self, words):
+        self.message.object = f'<div role="alert">{html.escape(words)}</div>'
+
+    def _show(self, *_):
+        levels = dict(self.table.points) if self.table is not None else {}
+        self.grid.values = [f"{levels[each]:.10g}" if each in levels else "" for each in NOMINAL]
+        self.clear.disabled = self.save.disabled = not levels
+
+    def _save_template(self, *_):
+        self._exchange.save(file_name(self._name, "template.csv"), self._kind.template_csv())
+
+    def _save(self, *_):
+        self._exchange.save(file_name(self._workshop.title, f"{self._name}.csv"), self.table.to_csv())
+
+    def _clear(self, *_):
+        self._keep(None)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return pmui.Column(
+            pmui.FlexBox(self.load, self.template, self.save, self.clear, margin=(0, 12, 0, 12), gap="4px"),
+            self.message,
+            pmui.Grid(
+                pmui.Grid(self.grid, size=WIDE),
+                pmui.Grid(pmui.Column(self.pasted, self.apply, sizing_mode="stretch_width"), size=NARROW),
+                container=True,
+                sizing_mode="stretch_width",
+                margin=0,
+            ),
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+
+def _number(text):
+    """Return the number that somebody typed, or None."""
+    plain = text.strip().replace("\N{MINUS SIGN}", "-")
+    return float(plain.replace(",", ".")) if NUMBER.fullmatch(plain) else None
+
+
+def _button(label, icon, **kind):
+    return pmui.Button(label=label, icon=icon, size="small", variant="outlined", margin=(4, 8, 4, 0), **kind)

@@ -1,0 +1,132 @@
+"""The tab in which insertion gain becomes single numbers: what a source is with each design.
+
+The one rule: levels are compared within one source; the table says which design they are compared with.
+"""
+
+import html
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+from dashboard import style
+from dashboard.views.band_editor import BandEditor
+from dashboard.views.compare import HAND, HAND_NAME
+from dashboard.views.explore import PAPER, caption
+from dashboard.views.verdict import swatch_svg
+
+
+class LevelView(Viewer):
+    """A source on the reference track, and its level with every design.
+
+    Parameters
+    ----------
+    workshop : Workshop
+        What is edited and shown.
+    pins : Pins
+        Whose base of differences is chosen.
+    exchange : Exchange
+        Opens and saves files.
+    """
+
+    title = "Level"
+
+    def __init__(self, workshop, pins, exchange):
+        super().__init__()
+        self._in_sight = False
+        self._workshop, self._pins = workshop, pins
+        self.base = pn.widgets.Select(
+            label="Difference from",
+            options={HAND_NAME: HAND},
+            width=240,
+            margin=(4, 12, 6, 12),
+            stylesheets=[style.SELECT_CSS],
+        )
+        self.table = pn.pane.HTML(
+            "", stylesheets=[style.LEVELS_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
+        )
+        self.editor = BandEditor(
+            workshop, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
+        )
+        self.base.param.watch(self._choose, "value")
+        pins.param.watch(self._show, ["pinned", "base"])
+        workshop.param.watch(self._show, "assessed")
+
+    def _offer(self):
+        options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
+        self.base.param.update(options=options, value=self._pins.base or HAND)
+
+    def _choose(self, event):
+        self._pins.choose_base(event.new or None)
+
+    def look(self, in_sight):
+        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
+        self._in_sight = in_sight
+        self._show()
+
+    def _show(self, *_):
+        # a select that was never drawn cannot take new options
+        if not self._in_sight:
+            return
+        self._offer()
+        self.table.object = levels_html(self._workshop.shown, self._workshop.source, self._workshop.base)
+        self.editor.grid.designs = [_design(each) for each in self._workshop.shown if each.level is not None]
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return pmui.Column(
+            pmui.Paper(caption("Level with the track", WORDS), self.base, self.table, **PAPER),
+            pmui.Paper(caption("Source", SOURCE_WORDS), self.editor, **PAPER),
+            sizing_mode="stretch_width",
+            margin=(0, 8, 8, 8),
+        )
+
+
+WORDS = "energies of the bands summed, as they are and A-weighted (IEC 61672-1)"
+SOURCE_WORDS = "level per band with the reference track; only bands that have one are summed"
+NONE_GIVEN = "No source yet: type one below, paste it, or open a CSV file."
+
+
+def levels_html(assessed, source, base):
+    """Return the levels of a source with designs as HTML, whatever characters their names are made of.
+
+    Parameters
+    ----------
+    assessed : iterable of Assessed
+        The designs.
+    source : trackig_core.SourceSpectrum or None
+        The source.
+    base : Assessed or None
+        The design from which differences are taken.
+    """
+    if source is None or base is None:
+        return f"<p>{NONE_GIVEN}</p>"
+    reference = source.with_track(np.zeros_like(base.levels))
+    rows = [("", "Reference track", reference)]
+    rows += [(swatch_svg(each.colour, each.dash), html.escape(each.name), each.level) for each in assessed]
+    name = html.escape(base.name)
+    head = "".join(
+        f'<th scope="col">{words}</th>'
+        for words in ("Design", "Level, dB", "Level, dB(A)", f"re {name}, dB", f"re {name}, dB(A)")
+    )
+    body = "".join(_row(mark, words, level, base.level) for mark, words, level in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _row(mark, name, level, base):
+    difference = level.relative_to(base)
+    texts = (
+        style.plain_text(level.unweighted),
+        style.plain_text(level.a_weighted),
+        style.signed_text(difference.unweighted),
+        style.signed_text(difference.a_weighted),
+    )
+    cells = "".join(f"<td>{text}</td>" for text in texts)
+    return f'<tr><th scope="row">{mark}<span class="name">{name}</span></th>{cells}</tr>'
+
+
+def _design(assessed):
+    cells = [["" if np.isnan(level) else style.plain_text(level), False] for level in assessed.level.bands]
+    parts = [{"words": "level", "cells": cells}]
+    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}

@@ -1,0 +1,92 @@
+"""The tab in which designs are held against a specification: limit, level and margin per band.
+
+The one rule: the verdict stands above the table, in words that can be read from the back row.
+"""
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+from dashboard import style
+from dashboard.views.band_editor import BandEditor
+from dashboard.views.explore import PAPER, caption
+from dashboard.views.verdict import verdicts_html
+
+
+class SpecificationView(Viewer):
+    """The required insertion gain, and how the designs fare.
+
+    Parameters
+    ----------
+    workshop : Workshop
+        What is edited and shown.
+    exchange : Exchange
+        Opens and saves files.
+    """
+
+    title = "Specification"
+
+    def __init__(self, workshop, exchange):
+        super().__init__()
+        self._in_sight = False
+        self._workshop = workshop
+        self.verdict = pn.pane.HTML(
+            "", stylesheets=[style.VERDICT_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
+        )
+        self.editor = BandEditor(
+            workshop,
+            "specification",
+            exchange,
+            "Limit, dB",
+            "Greatest insertion gain allowed, and the designs",
+        )
+        workshop.param.watch(self._show, "assessed")
+
+    def look(self, in_sight):
+        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
+        self._in_sight = in_sight
+        self._show()
+
+    def _show(self, *_):
+        if not self._in_sight:
+            return
+        self.verdict.object = verdicts_html(self._workshop.assessed)
+        self.editor.grid.designs = [_design(each) for each in self._workshop.shown]
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return pmui.Column(
+            pmui.Paper(caption("Verdict", WORDS), self.verdict, **PAPER),
+            pmui.Paper(caption("Required insertion gain", ""), self.editor, **PAPER),
+            sizing_mode="stretch_width",
+            margin=(0, 8, 8, 8),
+        )
+
+
+WORDS = "bands without a limit say nothing; a margin of exactly 0 dB complies"
+
+
+def _design(assessed):
+    """Return the columns of a design: its insertion gain, and its margin if there is a limit."""
+    verdict = assessed.verdict
+    fails = np.zeros(assessed.levels.size, bool) if verdict is None else verdict.fails
+    gains = [
+        [style.signed_text(level), bool(failing)]
+        for level, failing in zip(assessed.levels, fails, strict=True)
+    ]
+    parts = [{"words": "gain", "cells": gains}]
+    if verdict is not None:
+        parts.append({"words": "margin", "cells": [_margin_cell(margin) for margin in verdict.margins]})
+    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}
+
+
+def _margin_cell(margin):
+    if np.isnan(margin):
+        return ["", False]
+    # a margin that rounds to nothing but fails must not be read as nothing
+    text = style.signed_text(margin)
+    return [
+        f"✗ {'−' if margin < 0 and text == '0.0' else ''}{text}" if margin < 0 else text,
+        bool(margin < 0),
+    ]
