@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
 import panel as pn
+import param
 import pytest
 
 import trackig_core as tig
@@ -33,6 +34,18 @@ def fake_picture(picture):
         return dataclasses.replace(real, solution=solution)
 
     return fake
+
+
+class Pictures(param.Parameterized):
+    """Pictures of pins, put there by a test."""
+
+    pictures = param.Dict(default={})
+
+
+@pytest.fixture
+def make_pictures():
+    """Return a function that makes pictures of pins, by their keys, that nobody solves."""
+    return lambda **pictures: Pictures(**pictures)
 
 
 @pytest.fixture
