@@ -48,7 +48,7 @@ def open_tab(page, name):
 
 def pin(page, name):
     page.get_by_role("textbox", name="Name of the design to be pinned").fill(name)
-    page.get_by_role("button").filter(has_text=re.compile(r"Pin$")).first.click()
+    page.get_by_role("button", name="Pin this design").click()
     expect(page.get_by_text(f"Pinned as “{name}”").first).to_be_visible()
 
 
