@@ -29,7 +29,6 @@ ACCEPTED = {"study": ".toml", "specification": ".csv,.txt,.tsv", "source": ".csv
 PLOTS = {
     "insertion_gain_figure": "explore",
     "force_figure": "explore",
-    "pin_difference_figure": "compare",
 }
 """Tab in which each plot is that can be saved, by the plot's name."""
 

@@ -137,7 +137,9 @@ def test_a_whole_workshop(open_dashboard):
     page.get_by_role("textbox", name="Paste").fill(source.to_csv().replace(",", "\t"))
     page.get_by_role("button", name="Take what is pasted").click()
     level = source.with_track(solutions["This design"].insertion_gain)
-    expect(page.get_by_role("row", name="This design")).to_contain_text(f"{level.a_weighted:.1f}")
+    expect(page.get_by_role("row", name=re.compile("^This design"))).to_contain_text(
+        f"{level.a_weighted:.1f}"
+    )
 
     # save
     open_tab(page, "Keep")
@@ -194,7 +196,6 @@ def check_exports(page, solutions):
         ("Force, PNG", b"\x89PNG\r\n"),
         ("Insertion gain, SVG", b"<svg "),
         ("Force, SVG", b"<svg "),
-        ("Difference, SVG", b"<svg "),
     ):
         name, data = download(page, button)
         assert name.endswith(button[-3:].lower())
