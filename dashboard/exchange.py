@@ -17,7 +17,7 @@ from pathlib import Path
 import panel as pn
 import param
 
-from dashboard.runner import in_turn, one_message
+from dashboard.later import in_turn, one_message
 from trackig_core import band_table, study
 
 MOST = {"study": study.MOST_BYTES, "specification": band_table.MOST_BYTES, "source": band_table.MOST_BYTES}
@@ -29,7 +29,6 @@ ACCEPTED = {"study": ".toml", "specification": ".csv,.txt,.tsv", "source": ".csv
 PLOTS = {
     "insertion_gain_figure": "explore",
     "force_figure": "explore",
-    "pin_difference_figure": "compare",
 }
 """Tab in which each plot is that can be saved, by the plot's name."""
 

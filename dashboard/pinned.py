@@ -11,7 +11,8 @@ from types import MappingProxyType
 
 import param
 
-from dashboard.runner import AT_REST, LOOK_EVERY, Latest, one_message, readable
+from dashboard.later import one_message
+from dashboard.runner import AT_REST, LOOK_EVERY, Latest, readable
 
 NOTHING = MappingProxyType({})
 

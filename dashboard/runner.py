@@ -21,6 +21,7 @@ from functools import partial
 import panel as pn
 
 import trackig_core as tig
+from dashboard.later import in_turn, one_message
 from dashboard.state import PHYSICAL, Picture
 from dashboard.store import SolutionStore
 
@@ -320,36 +321,6 @@ def publish(outcome, document, **changes):
         New values by name.
     """
     in_turn(document, partial(_apply, outcome, changes))
-
-
-def in_turn(document, change):
-    """Change what is drawn, when the session's document may change.
-
-    Parameters
-    ----------
-    document : bokeh.document.Document or None
-        The session's document; None, or one that nobody looks at, may change at once.
-    change : callable
-        Makes the change; it is called with the document.
-    """
-    if document is None or document.session_context is None:
-        change(document)
-    else:
-        document.add_next_tick_callback(partial(change, document))
-
-
-@contextlib.contextmanager
-def one_message(document):
-    """Send all that changes within to the browser in one message, so that it is drawn in one frame.
-
-    Parameters
-    ----------
-    document : bokeh.document.Document or None
-        The session's document.
-    """
-    # before the page says that it is loaded, Panel drops what it holds, even if the browser has its document
-    with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
-        yield
 
 
 def _apply(outcome, changes, document):

@@ -10,6 +10,7 @@ from panel.viewable import Viewer
 import trackig_core as tig
 from dashboard import style
 from dashboard.compare_figures import BaseDifferenceFigure
+from dashboard.later import Later
 from dashboard.pins import PinError
 from dashboard.state import display_values
 from dashboard.views.comparison_table import Column, table_html
@@ -79,19 +80,20 @@ class Compare(Viewer):
         self.differences = BaseDifferenceFigure()
         self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[style.TABLE_CSS], margin=0)
         self.base.param.watch(self._choose_base, "value")
-        self.bands.param.watch(self._show, "value")
         outcome.param.watch(self._show, "picture")
-        presentation.param.watch(self._show, ["summation", "reference"])
-        curves.param.watch(self._show, ["levels", "gains"])
+        self._show_later = Later(self._show)
+        self.bands.param.watch(self._show_later, "value")
+        presentation.param.watch(self._show_later, ["summation", "reference"])
+        curves.param.watch(self._show_later, ["levels", "gains"])
         pins.param.watch(self._offer_bases, ["pinned", "base"])
-        pins.param.watch(self._show, ["pinned", "base"])
+        pins.param.watch(self._show_later, ["pinned", "base"])
         self._offer_bases()
 
     def look(self, in_sight):
         """Note whether the tab is in sight; if so, show what has changed meanwhile."""
         self._in_sight = in_sight
         self._offer_bases()
-        self._show()
+        self._show_later()
 
     def _pin_table_1(self, _):
         try:

@@ -9,6 +9,7 @@ from panel.viewable import Viewer
 
 from dashboard import style
 from dashboard.figures import ForceFigure, InsertionGainFigure
+from dashboard.later import Later
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.verdict import ShortVerdict
 
@@ -61,10 +62,12 @@ class Explore(Viewer):
         ]
         outcome.param.watch(self._show, ["picture", "preset_picture"])
         outcome.param.watch(self._dim, ["problem", "progress"])
-        presentation.param.watch(self._show_gain, ["reference", "summation"])
-        pins.param.watch(self._show_gain, "alone")
-        workshop.param.watch(self._show_gain, "specification")
-        curves.param.watch(self._show_all, ["gains", "forces"])
+        show_gain = Later(self._show_gain)
+        presentation.param.watch(show_gain, ["reference", "summation"])
+        pins.param.watch(show_gain, "alone")
+        curves.param.watch(show_gain, "gains")
+        curves.param.watch(Later(self._show_forces), "forces")
+        workshop.param.watch(show_gain, "specification")
         self._show_all()
 
     def _show(self, *events):
@@ -73,18 +76,21 @@ class Explore(Viewer):
         else:
             self._show_gain()
 
-    def _show_all(self, *_):
+    def _show_all(self):
+        self._show_forces()
+        self._show_gain()
+
+    def _show_forces(self):
         picture = self._outcome.picture
         if picture is not None:
             self.force.show(picture, self._curves.forces)
             self._name_fidelity(picture.solution.fidelity)
-        self._show_gain()
 
     def _name_fidelity(self, fidelity):
         words, variant = FIDELITY_CHIPS[fidelity]
         self.fidelity.param.update(label=words, variant=variant, visible=True)
 
-    def _show_gain(self, *_):
+    def _show_gain(self):
         chosen = self._presentation
         self.insertion_gain.name_axis(gain_axis(chosen))
         picture, preset = self._outcome.picture, self._outcome.preset_picture

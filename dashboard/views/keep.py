@@ -155,7 +155,6 @@ def button(label, icon, **kind):
 PLOTS = (
     ("insertion_gain_figure", "Insertion gain", "gain"),
     ("force_figure", "Force", "force"),
-    ("pin_difference_figure", "Difference", "difference"),
 )
 """Name of each plot's figure, what it is called, and how its file is named."""
 

@@ -33,7 +33,6 @@ class ShortVerdict(Viewer):
         there = self._workshop.assessed
         verdict = there[0].verdict if there else None
         self.pane.object = "" if verdict is None else f'<p class="short">{badge(verdict)}</p>'
-        self.pane.visible = verdict is not None
 
     def __panel__(self):
         """Return what is put on the page."""

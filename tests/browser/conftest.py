@@ -48,12 +48,34 @@ def chromium():
 @pytest.fixture(scope="session")
 def address(chromium, tmp_path_factory):  # noqa: ARG001  (no browser, no server)
     """Serve the dashboard as a user does, and return its address."""
+    with serving(free_port(), tmp_path_factory.mktemp("server") / "log.txt") as url:
+        yield url
+
+
+@pytest.fixture
+def serve():
+    """Return a function that serves the dashboard at a port, as long as its context lasts, with a log."""
+    return serving
+
+
+@pytest.fixture
+def port():
+    """Return a port that nobody serves at."""
+    return free_port()
+
+
+def free_port():
+    """Return a port that nobody serves at."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+        return free.getsockname()[1]
+
+
+@contextlib.contextmanager
+def serving(port, log):
+    """Serve the dashboard at a port, and give its address; its log may hold no traceback in the end."""
     command = [sys.executable, "-m", "panel", "serve", "dashboard", "--address", "127.0.0.1"]
     command += ["--port", str(port), "--allow-websocket-origin", f"127.0.0.1:{port}"]
-    log = tmp_path_factory.mktemp("server") / "log.txt"
     with log.open("w") as output:
         server = subprocess.Popen(command, cwd=ROOT, stdout=output, stderr=subprocess.STDOUT)
     try:
@@ -89,7 +111,7 @@ def open_dashboard(address, chromium):
     """
     complaints, requested, contexts = [], [], []
 
-    def open_page(width=1440, height=900):
+    def open_page(width=1440, height=900, query=""):
         contexts.append(chromium.new_context(viewport={"width": width, "height": height}))
         page = contexts[-1].new_page()
         page.set_default_timeout(60_000)
@@ -97,7 +119,7 @@ def open_dashboard(address, chromium):
         page.on("websocket", lambda websocket: requested.append(websocket.url))
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.on("console", lambda line: line.type in ("error", "warning") and complaints.append(line.text))
-        page.goto(address)
+        page.goto(address + query)
         page.wait_for_function(READY)
         return page
 

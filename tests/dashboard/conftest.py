@@ -41,6 +41,18 @@ def fake_picture(picture):
     return fake
 
 
+class Pictures(param.Parameterized):
+    """Pictures of pins, put there by a test."""
+
+    pictures = param.Dict(default={})
+
+
+@pytest.fixture
+def make_pictures():
+    """Return a function that makes pictures of pins, by their keys, that nobody solves."""
+    return lambda **pictures: Pictures(**pictures)
+
+
 @pytest.fixture
 def make_store():
     """Return a function that makes stores, closed after the test."""
@@ -89,12 +101,6 @@ class Session:
         pin = self.pins.add(preset_values(preset), name)
         self.pinned.pictures = {**self.pinned.pictures, pin.key: self._picture(preset)}
         return pin
-
-
-class Pictures(param.Parameterized):
-    """Pictures of pins, put there by a test."""
-
-    pictures = param.Dict(default={})
 
 
 @pytest.fixture(autouse=True)

@@ -10,7 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import trackig_core as tig
+from dashboard import style
+from dashboard.curves import Curve
 from dashboard.figures import (
+    MOST_CURVES,
     POINTS_BEYOND,
     POINTS_IN_VIEW,
     TIME_AXIS,
@@ -255,3 +258,102 @@ def test_both_forces_have_a_name_and_a_hover():
     names = [item.label.value for item in force.model.legend[0].items]
     assert names == ["all supports", "support under the wheel"]
     assert len(force.model.select({"type": HoverTool})) == len(names)
+
+
+def curve(picture, preset, name):
+    """Return a pinned design's curve of insertion gain."""
+    return Curve(name, picture(preset).solution.insertion_gain, style.DESIGN_COLOURS[0], (3, 3))
+
+
+MARKUP = "<img src=x onerror=console.error(1)>"
+
+
+def test_pinned_curves_are_drawn_and_named(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    curves = (curve(picture, "slab-track", "a"), curve(picture, "booted-sleeper", MARKUP))
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves)
+    for place, each in enumerate(curves):
+        np.testing.assert_array_equal(gain.pins.data[f"pin_{place}"], each.drawn)
+    assert np.isnan(gain.pins.data["pin_2"]).all()
+    assert listed(gain) == ["this design", "a", style.name_text(MARKUP, style.LEGEND_NAME)]
+    (hover,) = gain.model.select({"type": HoverTool})
+    assert [name for name, _ in hover.tooltips][-2:] == ["a", MARKUP]
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies)
+    assert listed(gain) == ["this design"]
+    assert np.isnan(gain.pins.data["pin_0"]).all()
+
+
+def test_all_pinned_curves_are_seen(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    high = Curve("loud", solution.insertion_gain + 40, style.DESIGN_COLOURS[0], ())
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, (high,))
+    assert gain.model.y_range.end >= high.drawn.max()
+
+
+def limits(**levels):
+    """Return a limit by nominal band, NaN elsewhere."""
+    return np.array([levels.get(f"at_{label.replace('.', '_')}", np.nan) for label in tig.BAND_LABELS])
+
+
+def test_a_limit_is_drawn_where_there_is_one_and_failing_bands_are_marked(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    levels = solution.insertion_gain
+    bands = {label: tig.BAND_LABELS.index(label) for label in ("40", "50", "100")}
+    limit = limits(at_40=levels[bands["40"]] - 3, at_50=levels[bands["50"]] + 1, at_100=levels[bands["100"]])
+    gain.show(levels, None, solution.natural_frequencies, limit=limit)
+    data = gain.limit.data
+    np.testing.assert_array_equal(data["limit"], limit)
+    assert data["before"][bands["50"]] == limit[bands["40"]]
+    assert np.isnan(data["before"][bands["40"]])
+    assert list(np.flatnonzero(np.isfinite(data["failing"]))) == [bands["40"]]
+    assert data["failing"][bands["40"]] == levels[bands["40"]]
+    assert listed(gain) == ["this design", "required maximum", "exceeds it"]
+    gain.show(levels, None, solution.natural_frequencies)
+    assert listed(gain) == ["this design"]
+
+
+def test_curves_alone_leave_the_design_at_hand_out(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    curves = (curve(picture, "slab-track", "a"),)
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves, alone=True)
+    assert listed(gain) == ["a"]
+    assert not marker(gain, "loaded_track")[0].visible
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves)
+    assert listed(gain) == ["this design", "a"]
+
+
+def test_pinned_forces_are_drawn_and_follow_a_zoom(picture):
+    force = ForceFigure()
+    pinned = (Curve("slab", picture("slab-track"), style.DESIGN_COLOURS[0], ()),)
+    force.show(picture("booted-block-low-mass"), pinned)
+    data, shown = force.pins[0].data, picture("slab-track")
+    at = np.searchsorted(shown.time, data["time"].astype(float) - 1e-6)
+    np.testing.assert_allclose(data["total"], shown.total_force[at], rtol=1e-5, atol=1e-6)
+    assert listed(force) == ["all supports", "support under the wheel", "slab"]
+    assert force.model.y_range.end >= shown.total_force.max()
+    force.model._trigger_event(RangesUpdate(force.model, x0=1.0, x1=1.2, y0=0, y1=1))
+    sent = force.pins[0].data["time"]
+    expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
+    assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
+    force.show(picture("booted-block-low-mass"))
+    assert not len(force.pins[0].data["time"])
+
+
+def test_a_frame_sends_nothing_of_the_pins(gain, picture):
+    force, shown = ForceFigure(), picture("booted-block-low-mass")
+    natural = shown.solution.natural_frequencies
+    gains = tuple(curve(picture, "slab-track", str(place)) for place in range(MOST_CURVES))
+    forces = tuple(each._replace(drawn=picture("slab-track")) for each in gains)
+    gain.show(shown.solution.insertion_gain, None, natural, gains)
+    force.show(shown, forces)
+    sources = (gain.pins, *force.pins)
+    sent = [source.data for source in sources]
+    gain.show(shown.solution.insertion_gain + 1, None, natural, gains)
+    force.show(shown, forces)
+    assert all(source.data is before for source, before in zip(sources, sent, strict=True))
+
+
+def test_every_figure_has_a_name_for_screen_readers(gain):
+    for figure in (gain, ForceFigure()):
+        assert figure.model.html_attributes["role"] == "figure"
+        assert len(figure.model.html_attributes["aria-label"]) > 10

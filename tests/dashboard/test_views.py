@@ -3,13 +3,12 @@
 import dataclasses
 
 import numpy as np
-import param
 import pytest
 
 import trackig_core as tig
 from dashboard.curves import PinnedCurves
 from dashboard.pins import Pins
-from dashboard.state import Outcome, Presentation
+from dashboard.state import PRESET_LABELS, Outcome, Presentation, preset_values
 from dashboard.style import duration_text
 from dashboard.views.explore import Explore
 from dashboard.views.frequencies import Frequencies, frequencies_html
@@ -22,18 +21,17 @@ def outcome():
     return Outcome()
 
 
-class Pictures(param.Parameterized):
-    """Pictures of pins, put there by a test."""
+@pytest.fixture
+def explore(make_pictures):
+    """Return a function that makes the view, with pins and pictures of theirs if a test gives them."""
 
-    pictures = param.Dict(default={})
+    def make(outcome, presentation, pins=None, pinned=None):
+        pins, pinned = pins or Pins(), pinned or make_pictures()
+        curves = PinnedCurves(pins, pinned, presentation)
+        workshop = Workshop(outcome, presentation, pins, pinned, curves)
+        return Explore(outcome, presentation, pins, curves, workshop)
 
-
-def explore(outcome, presentation, pins=None, pinned=None):
-    """Return the view, with pins and pictures of theirs if a test gives them."""
-    pins, pinned = pins or Pins(), pinned or Pictures()
-    curves = PinnedCurves(pins, pinned, presentation)
-    workshop = Workshop(outcome, presentation, pins, pinned, curves)
-    return Explore(outcome, presentation, pins, curves, workshop)
+    return make
 
 
 def test_the_status_follows_a_solve(outcome, picture):
@@ -48,7 +46,7 @@ def test_the_status_follows_a_solve(outcome, picture):
     assert "from cache" in status.text.object
 
 
-def test_the_status_and_a_chip_say_which_fidelity_is_on_screen(outcome, fake_picture, picture):
+def test_the_status_and_a_chip_say_which_fidelity_is_on_screen(explore, outcome, fake_picture, picture):
     view, design = explore(outcome, Presentation()), picture("slab-track").design
     outcome.picture = fake_picture(design, fidelity="live", notes=("17 bays",))
     assert status_words(outcome).startswith("Live run, solved in")
@@ -110,7 +108,7 @@ def test_what_was_not_solved_can_be_solved_after_all(outcome):
     assert not status.solve.visible
 
 
-def test_pictures_of_earlier_inputs_are_dimmed(outcome, picture):
+def test_pictures_of_earlier_inputs_are_dimmed(explore, outcome, picture):
     outcome.picture = picture("slab-track")
     view = explore(outcome, Presentation())
     looks = (*view.panes, view.frequencies.pane)
@@ -140,7 +138,7 @@ def test_a_single_stage_track_says_that_it_has_no_block(picture):
     assert "boot" not in text
 
 
-def test_all_pictures_are_redrawn_together(outcome, picture):
+def test_all_pictures_are_redrawn_together(explore, outcome, picture):
     view = explore(outcome, Presentation())
     for preset in ("booted-block-low-mass", "slab-track"):
         outcome.param.update(picture=picture(preset), preset_picture=picture("booted-sleeper"))
@@ -153,7 +151,7 @@ def test_all_pictures_are_redrawn_together(outcome, picture):
     np.testing.assert_array_equal(view.insertion_gain.bands.data["preset"], ghost)
 
 
-def test_a_view_made_late_shows_what_is_there(outcome, picture):
+def test_a_view_made_late_shows_what_is_there(explore, outcome, picture):
     outcome.picture = picture("slab-track")
     view = explore(outcome, Presentation())
     np.testing.assert_array_equal(
@@ -161,7 +159,7 @@ def test_a_view_made_late_shows_what_is_there(outcome, picture):
     )
 
 
-def test_the_choice_of_sum_and_reference_redraws_without_solving(outcome, picture):
+def test_the_choice_of_sum_and_reference_redraws_without_solving(explore, outcome, picture):
     presentation = Presentation()
     outcome.param.update(picture=picture("booted-sleeper"), preset_picture=picture("slab-track"))
     view = explore(outcome, presentation)
@@ -181,3 +179,44 @@ def test_observed_frequencies_stand_beside_the_computed_ones(picture):
     assert "Observed in the run: 301 Hz" in text
     assert text.count("Observed") == 2
     assert frequencies_html(dataclasses.replace(natural, observed_coupled_block=None)).count("Observed") == 1
+
+
+def test_pins_that_are_shown_are_drawn_behind_the_design(explore, outcome, picture, make_pictures):
+    pins, pinned = Pins(), make_pictures()
+    one, other = pins.add_all([(preset_values(key), key) for key in ("slab-track", "booted-sleeper")])
+    outcome.picture = picture("booted-block-low-mass")
+    view = explore(outcome, Presentation(), pins, pinned)
+    assert np.isnan(view.insertion_gain.pins.data["pin_0"]).all()
+    pinned.pictures = {one.key: picture("slab-track"), other.key: picture("booted-sleeper")}
+    for place, key in enumerate(("slab-track", "booted-sleeper")):
+        drawn = view.insertion_gain.pins.data[f"pin_{place}"]
+        np.testing.assert_array_equal(drawn, picture(key).solution.insertion_gain)
+        peak = picture(key).total_force.max()
+        assert view.force.pins[place].data["total"].max() == pytest.approx(peak, rel=1e-6)
+    pins.show(one.key, shown=False)
+    drawn = view.insertion_gain.pins.data["pin_0"]
+    np.testing.assert_array_equal(drawn, picture("booted-sleeper").solution.insertion_gain)
+    assert not len(view.force.pins[1].data["time"])
+
+
+def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, picture, make_pictures):
+    pins, presentation = Pins(), Presentation()
+    pins.add(preset_values("slab-track") | {"pad_stiffness": 500.0}, "of my own")
+    outcome.picture = picture("booted-block-low-mass")
+    view = explore(outcome, presentation, pins, make_pictures())
+    pins.show_table_1()
+    assert [pin.design for pin in pins.shown] == list(tig.PRESETS.values())
+    view = explore(
+        outcome,
+        presentation,
+        pins,
+        make_pictures(pictures={pin.key: picture(pin.values["preset"]) for pin in pins.shown}),
+    )
+    names = [item.label.value for item in view.insertion_gain.model.legend[0].items]
+    assert names == list(PRESET_LABELS.values())
+    assert not any(marker.visible for marker in view.insertion_gain.model.select({"name": "loaded_track"}))
+    assert view.show_hand.visible
+    view.show_hand.param.trigger("clicks")
+    assert not pins.alone
+    names = [item.label.value for item in view.insertion_gain.model.legend[0].items]
+    assert names[0] == "this design"

@@ -1,0 +1,74 @@
+"""Draws when drawing is allowed.
+
+A click on a button is handled while nobody holds the document's lock; figures may change only under it, as
+they do in a next-tick callback. The one rule: however many changes ask for it, it is drawn once.
+"""
+
+import contextlib
+import logging
+from functools import partial
+
+import panel as pn
+
+log = logging.getLogger(__name__)
+
+
+class Later:
+    """Does a piece of drawing as soon as the session's document may change.
+
+    Parameters
+    ----------
+    draw : callable
+        Takes no arguments.
+    """
+
+    def __init__(self, draw):
+        self._draw = draw
+        self._due = False
+
+    def __call__(self, *_):
+        """Ask for it; without a session, as in tests and while a page is made, it is done at once."""
+        document = pn.state.curdoc
+        if document is None or document.session_context is None or document.session_context.session is None:
+            self._draw()
+        elif not self._due:
+            self._due = True
+            document.add_next_tick_callback(partial(self._do, document))
+
+    def _do(self, document):
+        self._due = False
+        try:
+            with one_message(document):
+                self._draw()
+        except Exception:
+            log.exception("A change could not be drawn")
+
+
+def in_turn(document, change):
+    """Change what is drawn, when the session's document may change.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document or None
+        The session's document; None, or one that nobody looks at, may change at once.
+    change : callable
+        Makes the change; it is called with the document.
+    """
+    if document is None or document.session_context is None:
+        change(document)
+    else:
+        document.add_next_tick_callback(partial(change, document))
+
+
+@contextlib.contextmanager
+def one_message(document):
+    """Send all that changes within to the browser in one message, so that it is drawn in one frame.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document or None
+        The session's document.
+    """
+    # before the page says that it is loaded, Panel drops what it holds, even if the browser has its document
+    with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
+        yield
