@@ -28,6 +28,7 @@ from trackig_core.lumped import (
     lumped_spectrum,
 )
 from trackig_core.measured import LossFactorCurve, MeasurementError, StiffnessCurve
+from trackig_core.motion import Motion, film
 from trackig_core.peer import PeerReceptance, peer_receptances
 from trackig_core.results import (
     ForceSpectrum,
@@ -48,6 +49,7 @@ from trackig_core.source import (
     a_weighting,
 )
 from trackig_core.specification import Specification, SpecificationError, Verdict
+from trackig_core.stiff_reference import StiffReferences, stiff_references
 from trackig_core.study import PinnedDesign, Study, StudyError, View
 from trackig_core.sweep import Departure, FrequencySweep, departure, frequency_sweep
 from trackig_core.verification import Verification, verify
@@ -76,6 +78,7 @@ __all__ = [
     "LumpedFrequencies",
     "MeasuredSlope",
     "MeasurementError",
+    "Motion",
     "NaturalFrequencies",
     "PeerReceptance",
     "PinnedDesign",
@@ -88,6 +91,7 @@ __all__ = [
     "Specification",
     "SpecificationError",
     "SteadyShape",
+    "StiffReferences",
     "StiffnessCurve",
     "Study",
     "StudyError",
@@ -104,6 +108,7 @@ __all__ = [
     "departure",
     "effective_supports",
     "element_errors",
+    "film",
     "frequency_sweep",
     "gain_asymptotes",
     "gain_by_loss_factor",
@@ -116,6 +121,7 @@ __all__ = [
     "receptance",
     "solve",
     "steady_shape",
+    "stiff_references",
     "time_step_errors",
     "track_decay_rate",
     "verify",
