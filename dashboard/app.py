@@ -16,6 +16,8 @@ from dashboard.controls import Controls
 from dashboard.runner import Runner, shared_live_store, shared_store
 from dashboard.state import DesignInputs, Outcome, Presentation
 from dashboard.views.explore import Explore
+from dashboard.views.learn import Learn
+from dashboard.views.method import Method
 from dashboard.views.status import Status
 from dashboard.views.verify import Verify
 
@@ -44,24 +46,32 @@ def build(store=None, live_store=None):
     panel_material_ui.Page
         The page, its first design solved or being solved.
     """
-    pn.extension(notifications=True, reconnect=True, exception_handler=tell)
+    pn.extension("katex", notifications=True, reconnect=True, exception_handler=tell)
     inputs, outcome, presentation = DesignInputs(), Outcome(), Presentation()
     runner = Runner(inputs, outcome, store or shared_store(), live_store or shared_live_store())
     runner.start()
     Checker(outcome)
     pn.state.on_session_destroyed(runner.close)
-    views = [Explore(outcome, presentation), Verify(outcome, presentation)]
+    views = [
+        Explore(outcome, presentation),
+        Learn(inputs, outcome, presentation),
+        Verify(outcome, presentation),
+        Method(),
+    ]
     return page(Controls(inputs), Status(outcome, runner.stop, runner.solve_again), tabs(outcome, views))
 
 
 def tabs(outcome, views):
-    """Return the views as tabs; the outcome is told when the checks come into sight."""
+    """Return the views as tabs; what is worked out only while looked at is told when it comes into sight."""
     shown = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
 
-    def tell_outcome(event):
+    def tell_views(event):
         outcome.checking = isinstance(views[event.new], Verify)
+        for view in views:
+            if isinstance(view, Learn):
+                view.look(view is views[event.new])
 
-    shown.param.watch(tell_outcome, "active")
+    shown.param.watch(tell_views, "active")
     return shown
 
 

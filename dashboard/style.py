@@ -78,6 +78,7 @@ SECOND_DASH = [7, 3]
 DOT_SIZE = 9
 FONT = "Roboto, Helvetica, Arial, sans-serif"
 MARKER_LABEL_SIZE = "19px"
+SIDE_VIEW_LABEL_SIZE = "16px"
 
 
 def frequency_text(frequency):
@@ -100,6 +101,11 @@ def signed_text(level):
     """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
     text = f"{level:+.1f}"
     return "0.0" if float(text) == 0 else text.replace("-", "−")
+
+
+def slope_text(slope):
+    """Return a slope [dB per octave] with its sign, whole."""
+    return f"{slope:+.0f} dB per octave".replace("-", "−") if round(slope) else "level"
 
 
 LEAST_DIFFERENCE = 1e-6
@@ -159,6 +165,13 @@ select.bk-input option { color: var(--panel-on-background-color); background: va
 """
 """The browser's own select, legible from afar; its arrow follows the theme."""
 
+PLAYER_CSS = """
+:host { font-family: var(--bokeh-base-font); font-size: 15px; color: var(--panel-on-background-color); }
+.bk-btn, select.bk-input { font-size: 15px; }
+select.bk-input { color: var(--panel-on-background-color); background-color: var(--panel-background-color); }
+"""
+"""The controls beside a moving drawing, which run in the browser alone."""
+
 SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
 """A slider marks the preset's value with a tick."""
 
@@ -174,6 +187,7 @@ def _figure_css(height):
 TALL = _figure_css("max(300px, calc(53vh - 150px))")
 LOW = _figure_css("max(250px, calc(47vh - 140px))")
 MEDIUM = _figure_css("300px")
+HIGH = _figure_css("420px")
 SHORT = _figure_css("180px")
 """Heights of the figures: together with their headings they fill the window, and no less than is legible."""
 
@@ -191,6 +205,25 @@ dl {{ display: grid; grid-template-columns: max-content 1fr; gap: 2px 12px; }}
 dl {{ margin: 12px 14px 10px 14px; font-size: 14px; }}
 dt {{ font-weight: 700; text-align: right; font-variant-numeric: tabular-nums; }}
 dd {{ margin: 0; }}
+"""
+
+PROSE_WIDTH = 900
+PROSE_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); font-size: 16px; }
+p, li { line-height: 1.55; }
+table { border-collapse: collapse; }
+th, td { text-align: left; vertical-align: top; padding: 4px 16px 4px 0; font-size: 15px; }
+"""
+EQUATION_CSS = """
+:host { color: var(--panel-on-background-color); font-size: 16px; overflow-x: auto; }
+"""
+
+SLOPES_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+table { border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; margin: 6px 0; }
+caption { text-align: left; font-weight: 500; padding-bottom: 4px; }
+th, td { text-align: right; padding: 3px 18px 3px 0; }
+th { font-weight: 500; }
 """
 
 REPORT_INK = "#1b2733"
