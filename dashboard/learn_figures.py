@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from bokeh.core.properties import value
 from bokeh.events import Pan, Tap
-from bokeh.models import ColumnDataSource, CustomJS, HoverTool, LogTicker, Range1d, Span
+from bokeh.models import ColumnDataSource, CustomJS, FixedTicker, HoverTool, Range1d, Span
 
 import trackig_core as tig
 from dashboard import style
@@ -29,6 +29,9 @@ LEAST_LEVELS = (-30.0, 15.0)
 
 DEEPEST = -60.0
 """Level below which an axis does not follow a curve [dB]: a false dip may be deep."""
+
+TICKS = [factor * 10.0**power for power in range(-2, 4) for factor in (1, 2, 5)]
+"""Ticks of a logarithmic axis of any slider, or of frequencies."""
 
 
 @dataclass(frozen=True)
@@ -111,9 +114,9 @@ class BandsFigure:
         """Say on the axis which insertion gain is drawn."""
         self.model.yaxis.axis_label = words
 
-    def show(self, **levels):
-        """Draw levels per band by column (21,) [dB]; curves left out are not drawn."""
-        seen = np.concatenate([*levels.values(), LEAST_LEVELS])
+    def show(self, also=(), **levels):
+        """Draw levels per band by column (21,) [dB]; curves left out are not drawn; ``also`` must be seen."""
+        seen = np.concatenate([*levels.values(), LEAST_LEVELS, also])
         seen = np.clip(seen[np.isfinite(seen)], DEEPEST, None)
         self._levels.show(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM, LEVEL_STEP)
         self.bands.data = self._data(levels)
@@ -144,10 +147,10 @@ def draw_curve(plot, source, x, curve):
     )
 
 
-def legend_above(plot):
+def legend_above(plot, columns=2):
     """Put the legend above the frame, where it covers no curve."""
     legend = plot.legend[0]
-    legend.update(orientation="horizontal", ncols=2, border_line_color=None, background_fill_alpha=0.0)
+    legend.update(orientation="horizontal", ncols=columns, border_line_color=None, background_fill_alpha=0.0)
     plot.add_layout(legend, "above")
 
 
@@ -219,8 +222,9 @@ class SweepFigure:
             y_axis_label="Natural frequency, Hz",
             stylesheets=[style.HIGH],
         )
-        for axis in (self.model.xaxis, self.model.yaxis):
-            axis.ticker = LogTicker(mantissas=[1, 2, 5])
+        for axis in (self.model.xaxis[0], self.model.yaxis[0]):
+            axis.ticker = FixedTicker(ticks=TICKS)
+            axis.major_label_overrides = {tick: f"{tick:g}" for tick in TICKS}
         self._now = Span(
             dimension="height", line_color=style.PRESET_GHOST, line_width=1, name="present_value"
         )
@@ -237,7 +241,7 @@ class SweepFigure:
         )
         tooltips = [("value", "@value"), *((c.words, f"@{c.column}{{0.0}} Hz") for c in self.CURVES)]
         self.model.add_tools(HoverTool(renderers=[lines[2]], mode="vline", tooltips=tooltips))
-        legend_above(self.model)
+        legend_above(self.model, columns=3)
 
     def show(self, label, values, sweep):
         """Draw a sweep.
@@ -282,7 +286,7 @@ class SlopesFigure(BandsFigure):
     ----------
     lines : bokeh.models.ColumnDataSource
         Named ``asymptotes``: ends ``x0``, ``y0``, ``x1``, ``y1`` [Hz and dB], the place and ``words`` of each
-        label, and its ``colour``.
+        label, empty for the track without blocks, and its ``colour``.
     """
 
     CURVES = (
@@ -300,14 +304,25 @@ class SlopesFigure(BandsFigure):
                 line_width=style.THIN_LINE_WIDTH, line_dash=[2, 3],
             ),
             self.model.text(
-                x="x", y="y", text="words", source=self.lines, text_color="colour", text_font=value(style.FONT),
-                text_font_size=style.SIDE_VIEW_LABEL_SIZE, y_offset=-6, x_offset=6,
+                x="x", y="y", text="words", source=self.lines, text_color="colour", x_offset=-8, y_offset=4,
+                text_font=value(style.FONT), text_font_size=style.SIDE_VIEW_LABEL_SIZE, text_align="right",
+                text_baseline="top",
             ),
         ]  # fmt: skip
 
-    def draw_asymptotes(self, families):
-        """Draw families of asymptotes: pairs of colour and sequence of trackig_core.Asymptote."""
-        rows = [(colour, line) for colour, lines in families for line in lines]
+    def draw_asymptotes(self, own, one_stage):
+        """Draw asymptotes of this design, with their slopes, and of the track without blocks.
+
+        Parameters
+        ----------
+        own, one_stage : sequence of trackig_core.Asymptote
+            Straight lines.
+        """
+        rows = [
+            *((style.THIS_DESIGN, line) for line in own),
+            *((style.LOADED_TRACK, line) for line in one_stage),
+        ]
+        named = len(own)
         self.lines.data = {
             "x0": [line.frequency[0] for _, line in rows],
             "x1": [line.frequency[1] for _, line in rows],
@@ -315,7 +330,10 @@ class SlopesFigure(BandsFigure):
             "y1": [line.level[1] for _, line in rows],
             "x": [np.sqrt(line.frequency[0] * line.frequency[1]) for _, line in rows],
             "y": [(line.level[0] + line.level[1]) / 2 for _, line in rows],
-            "words": [style.slope_text(line.slope) for _, line in rows],
+            "words": [
+                style.slope_text(line.slope) if number < named else ""
+                for number, (_, line) in enumerate(rows)
+            ],
             "colour": [colour for colour, _ in rows],
         }
 

@@ -139,7 +139,7 @@ def slopes(design, reference, summation):
     levels = tig.solve(design, "exact", **choices).insertion_gain
     measured = tig.measured_slopes(design, summation)
     steepest = measured[-1]
-    words = [_about_steepness(steepest, tig.lumped_frequencies(design).coupled[-1])]
+    words = [_about_steepness(design, steepest)]
     if not design.two_stage:
         words.append("One stage: 12 dB per octave above its one resonance.")
         return Slopes(levels, tig.gain_asymptotes(design, **choices), measured, None, (), tuple(words))
@@ -148,10 +148,10 @@ def slopes(design, reference, summation):
     gained = single_levels - levels
     at = int(np.argmax(gained))
     words.append(
-        "Two stages: 12 dB per octave above the first resonance, 24 above the second. The dashed track is as "
-        "stiff under the wheel at 50 Hz, but has no blocks. The block buys most at "
-        f"{tig.BAND_LABELS[at]} Hz, {gained[at]:.1f} dB, and costs most at "
-        f"{tig.BAND_LABELS[int(np.argmin(gained))]} Hz, {max(0.0, -gained.min()):.1f} dB."
+        "Two stages: 12 dB per octave above the first resonance, 24 above the second. The dashed track is "
+        f"as stiff under the wheel at 50 Hz, but has no blocks. The block buys most at {tig.BAND_LABELS[at]} "
+        f"Hz, {gained[at]:.1f} dB, and costs most at {tig.BAND_LABELS[int(np.argmin(gained))]} Hz, "
+        f"{max(0.0, -gained.min()):.1f} dB."
     )
     return Slopes(
         levels,
@@ -163,8 +163,10 @@ def slopes(design, reference, summation):
     )
 
 
-def _about_steepness(steepest, resonance):
+def _about_steepness(design, steepest):
     """Return how steep chain and beam are at the end of the bands, and why."""
+    resonance = tig.lumped_frequencies(design).coupled[-1]
+    waves_run = tig.cut_on(design)[0] < steepest.frequency
     chain = (
         f"steeper, since it still comes down from its resonance at {frequency_text(resonance)}"
         if steepest.lumped < steepest.asymptote.slope
@@ -172,12 +174,12 @@ def _about_steepness(steepest, resonance):
     )
     beam = (
         ": waves along the rail pass what the chain holds back"
-        if steepest.beam > steepest.lumped + NOTABLE_SLOPE
+        if waves_run and steepest.beam > steepest.lumped + NOTABLE_SLOPE
         else ""
     )
     return (
-        f"At {frequency_text(steepest.frequency)} the asymptote has {_slope(steepest.asymptote.slope)} dB per "
-        f"octave. The damped chain has {_slope(steepest.lumped)} there, {chain}; the beam "
+        f"At {frequency_text(steepest.frequency)} the asymptote has {_slope(steepest.asymptote.slope)} dB "
+        f"per octave. The damped chain has {_slope(steepest.lumped)} there, {chain}; the beam "
         f"{_slope(steepest.beam)}{beam}."
     )
 
@@ -253,9 +255,6 @@ def damping(design, reference, summation):
     pad, boot = tig.damping_curves(design, DAMPED)
     levels = tig.gain_by_loss_factor(design, tig.LOSS_FACTORS, reference, summation)
     low, high = (f"{factor:g}" for factor in (tig.LOSS_FACTORS[0], tig.LOSS_FACTORS[-1]))
-    peak = int(np.argmax(levels[0]))
-    dearer = (levels[-1] - levels[0])[peak:]
-    dearest = peak + int(np.argmax(dearer))
     bought = levels[0].max() - levels[-1].max()
     name, curve = ("pad", pad) if boot is None else ("boot", boot)
     return Damping(
@@ -264,17 +263,25 @@ def damping(design, reference, summation):
         levels,
         (
             f"The {name} has {curve.stiffness[0]:.2f} of its stiffness at 50 Hz when it moves at 5 Hz, and "
-            f"{curve.stiffness[-1]:.2f} of it at 500 Hz. No material can lose energy and keep one stiffness: what "
-            "answers only after a cause, and not before, must stiffen with frequency as far as it loses.",
+            f"{curve.stiffness[-1]:.2f} of it at 500 Hz. No material can lose energy and keep one stiffness: "
+            "what answers only after a cause, and not before, must stiffen with frequency as it loses.",
             f"From a loss factor of {low} to {high}, the peak falls by {bought:.1f} dB, from "
-            f"{level_text(levels[0].max())} to {level_text(levels[-1].max())}. "
-            + (
-                f"The price is paid above it: {dearer.max():.1f} dB less isolation at "
-                f"{tig.BAND_LABELS[dearest]} Hz, since a lossy spring is a stiffer one there."
-                if dearer.max() > 0
-                else "Above it nothing is lost on this track."
-            ),
+            f"{level_text(levels[0].max())} to {level_text(levels[-1].max())}. {_price(levels)}",
         ),
+    )
+
+
+def _price(levels):
+    """Return what loss costs where a track of little loss isolates, above its peak."""
+    bands = np.arange(levels.shape[1])
+    isolating = (bands > np.argmax(levels[0])) & (levels[0] < 0)
+    dearer = np.where(isolating, levels[-1] - levels[0], -np.inf)
+    dearest = int(np.argmax(dearer))
+    if not dearer[dearest] > 0:
+        return "Above it nothing is lost on this track."
+    return (
+        f"The price is paid where the track isolates: {dearer[dearest]:.1f} dB less of it at "
+        f"{tig.BAND_LABELS[dearest]} Hz, where lossy springs are stiffer and pass more."
     )
 
 
@@ -322,35 +329,45 @@ def definitions(design):
     }
     sums = np.abs(levels["energy_line"] - levels["coherent_line"])
     against_rigid = float(np.mean(levels["energy_rigid"] - levels["energy_line"]))
+    coherent_step = float(np.mean(levels["coherent_rigid"] - levels["coherent_line"]))
     stiff = tig.stiff_references(design, NARROW)
     wrong = stiff.gain_real - stiff.gain_rigid
     return Definitions(
         levels,
         stiff,
         (
-            f"The two sums are farthest apart at {_band(sums)}, by {sums.max():.1f} dB: waves that run along the "
-            "rail push neighbouring supports in turn, which energy counts and a sum of forces lets cancel.",
+            _about_sums(sums, tig.cut_on(design)[0]),
             f"Against the rigid track, summed energy comes out {abs(against_rigid):.1f} dB "
-            f"{'lower' if against_rigid < 0 else 'higher'} than against the line, in every band alike: the two "
-            "are parallel. The line is drawn through the track's own energy, which is small when many supports "
-            "share the load; the rigid track has the whole load on one.",
+            f"{'lower' if against_rigid < 0 else 'higher'} than against the line, in every band alike: the "
+            "two are parallel. The line is drawn through the track's own energy, which is small when many "
+            "supports share the load; the rigid track passes the whole load at one place. The coherent "
+            f"force has no such step: line and rigid track are {abs(coherent_step):.2f} dB apart for it.",
             "The wheel always stands over a support: this model knows no other place for it.",
         ),
         (
             f"On supports of {to_display('pad_stiffness', STIFF):,.0f} kN/mm the wheel still bounces on its "
             f"contact spring, at {frequency_text(stiff.contact_resonance)}. There such a reference passes "
-            f"{stiff.real.max():.0f} dB more than a rigid track, and the insertion gain against it comes out "
-            f"{-wrong.min():.1f} dB too low at {tig.BAND_LABELS[int(np.argmin(wrong))]} Hz: a dip that no track "
-            "has.",
-            "Stiffen the contact of the reference too, and its peak leaves the bands: what is left is within "
-            f"{difference_text(np.abs(stiff.stiffened).max())} of the rigid track, the wheel's inertia alone. So "
-            "the paper does it; the straight line and the exact rigid track never had the peak.",
+            f"{stiff.real.max():.0f} dB more than a rigid track, and the insertion gain against it comes "
+            f"out {-wrong.min():.1f} dB too low at {tig.BAND_LABELS[int(np.argmin(wrong))]} Hz: a dip that "
+            "no track has.",
+            "Stiffen the contact of the reference too, and its peak leaves the bands: what is left is "
+            f"within {difference_text(np.abs(stiff.stiffened).max())} of the rigid track, the wheel's "
+            "inertia alone. So the paper does it; the straight line and the exact rigid track never had "
+            "the peak.",
         ),
     )
 
 
-def _band(differences):
-    return f"{tig.BAND_LABELS[int(np.argmax(differences))]} Hz"
+def _about_sums(differences, waves_begin):
+    """Return how far energy and coherent sum are apart, and why."""
+    at = tig.BAND_LABELS[int(np.argmax(differences))]
+    says = f"The two sums are farthest apart at {at} Hz, by {differences.max():.1f} dB: "
+    if waves_begin > tig.BAND_EDGES[-1]:
+        return f"{says}on this track waves begin to run along the rail at {frequency_text(waves_begin)} only."
+    return (
+        f"{says}waves, which run along the rail from about {frequency_text(waves_begin)}, push neighbouring "
+        "supports in turn, which energy counts and a sum of forces lets cancel."
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -393,13 +410,14 @@ def ladder(design, reference, summation):
     return Ladder(
         comparison,
         (
-            f"The chain puts the wheel on {supports:.1f} supports side by side: as stiff as the rail makes them. "
-            f"It is within {tig.GOOD_ENOUGH:g} dB of the beam in {good.sum()} of {good.size} bands"
+            f"The chain puts the wheel on {supports:.1f} supports side by side: as stiff as the rail makes "
+            f"them. It is within {tig.GOOD_ENOUGH:g} dB of the beam in {good.sum()} of {good.size} bands"
             + (f": {where}." if where else "."),
-            f"It is farthest off at {tig.BAND_LABELS[worst]} Hz, where the beam passes {abs(gap[worst]):.1f} dB "
-            f"{more}. Below the waves' onset, about {frequency_text(tig.cut_on(design)[0])} on this track, two "
-            "springs and two masses tell the story; above it vibration travels along the rail, which the chain "
-            "has not.",
+            f"It is farthest off at {tig.BAND_LABELS[worst]} Hz, where the beam passes "
+            f"{abs(gap[worst]):.1f} dB {more}. Below the waves' onset, about "
+            f"{frequency_text(tig.cut_on(design)[0])} on this track, "
+            f"{'two masses on springs tell' if design.two_stage else 'one mass on a spring tells'} the "
+            "story; above it vibration travels along the rail, and the chain has no rail to travel along.",
         ),
     )
 

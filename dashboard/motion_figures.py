@@ -138,6 +138,34 @@ class SideView:
             text_font_size=style.SIDE_VIEW_LABEL_SIZE,
         )
 
+    def move(self, wheel, rail, block):
+        """Draw one instant, as the browser draws all others.
+
+        Parameters
+        ----------
+        wheel : float
+            Displacement of the wheel [unit of the movements].
+        rail, block : numpy.ndarray
+            Displacements of elements and blocks to one side of the wheel; no blocks when single-stage.
+        """
+        scale, supports = self.facts.data["scale"][0], dict(self.supports.data)
+        height = RAIL_AT - scale * np.concatenate([rail[:0:-1], rail])
+        per_bay = (height.size - 1) // (supports["x"].size - 1)
+        supports["rail"] = height[::per_bay]
+        if block.size:
+            supports["block"] = BLOCK_AT - scale * np.concatenate([block[:0:-1], block])
+            supports["top"] = supports["block"] + BLOCK_HEIGHT / 2
+            supports["bottom"] = supports["block"] - BLOCK_HEIGHT / 2
+        centre = WHEEL_AT - scale * wheel
+        self.rail.data = {**self.rail.data, "y": height}
+        self.supports.data = supports
+        self.wheel.data = {
+            **self.wheel.data,
+            "y": np.array([centre]),
+            "foot": np.array([centre - WHEEL_HEIGHT / 2]),
+            "rail": np.array([height[height.size // 2]]),
+        }
+
     def parts(self):
         """Return the arguments by which scripts of the browser know the drawing."""
         return {"rail": self.rail, "supports": self.supports, "wheel": self.wheel, "facts": self.facts}
@@ -322,7 +350,12 @@ class FilmPlayer:
         columns |= {f"rail_{i}": _micrometres(moved) for i, moved in enumerate(motion.rail.T)}
         if two_stage:
             columns |= {f"block_{i}": _micrometres(moved) for i, moved in enumerate(motion.block.T)}
-        # last, since it makes the browser draw
+        start = int(np.argmin(np.abs(time - self.slider.value)))
+        block = motion.block[start] if two_stage else np.zeros(0)
+        self.view.move(
+            *(MICROMETRES * moved[start] for moved in (motion.wheel, motion.rail)), MICROMETRES * block
+        )
+        # last, since it makes the browser draw the instant at which its own slider stands
         self.film.data = columns
 
 
@@ -353,8 +386,8 @@ class ShapePlayer:
     view : SideView
         The drawing.
     rail, block, wheel : bokeh.models.ColumnDataSource
-        Named ``shape_of_rail`` and so on: ``real`` and ``imag`` part per unit roughness [-], from the wheel to
-        one side; no blocks when single-stage.
+        Named ``shape_of_rail`` and so on: ``real`` and ``imag`` part per unit roughness [-], from the wheel
+        to one side; no blocks when single-stage.
     slider, play
         Phase [degrees], play and pause.
     """
@@ -396,9 +429,10 @@ class ShapePlayer:
         moved = {"rail": shape.rail[right, 0], "wheel": shape.wheel[:1]}
         moved["block"] = shape.block[own, 0] if two_stage else np.zeros(0)
         largest = max(np.abs(each).max(initial=0.0) for each in moved.values())
-        unit = "times the roughness"
+        unit = "× roughness"
         self.view.lay_out(shape.position[right], shape.support_position[own], two_stage, largest, unit)
-        # the wheel last, since it makes the browser draw
+        self.view.move(moved["wheel"][0].real, moved["rail"].real, moved["block"].real)
+        # the wheel last, since it makes the browser draw the phase at which its own slider stands
         for source, key in ((self.rail, "rail"), (self.block, "block"), (self.wheel, "wheel")):
             source.data = {"real": moved[key].real, "imag": moved[key].imag}
 

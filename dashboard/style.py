@@ -187,7 +187,7 @@ def _figure_css(height):
 TALL = _figure_css("max(300px, calc(53vh - 150px))")
 LOW = _figure_css("max(250px, calc(47vh - 140px))")
 MEDIUM = _figure_css("300px")
-HIGH = _figure_css("420px")
+HIGH = _figure_css("440px")
 SHORT = _figure_css("180px")
 """Heights of the figures: together with their headings they fill the window, and no less than is legible."""
 

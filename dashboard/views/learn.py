@@ -1,10 +1,12 @@
 """The tab in which a track is understood: a menu of subjects, of which one is looked at.
 
-A subject is made when it is first looked at, and its questions are answered only while it is. The one rule: what nobody looks at costs nothing.
+A subject is made when it is first looked at, and its questions are answered only while it is. The one
+rule: what nobody looks at costs nothing.
 """
 
 from functools import partial
 
+import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
@@ -39,7 +41,7 @@ class Learn(Viewer):
         }
         self._made = {}
         self._looked_at = False
-        self._places = {title: pmui.Column(sizing_mode="stretch_width", margin=0) for title in self._makers}
+        self._places = {title: pn.Column(sizing_mode="stretch_width", margin=0) for title in self._makers}
         self.menu = pmui.Tabs(*self._places.items(), sizing_mode="stretch_width", margin=(0, 8, 8, 8))
         self.menu.param.watch(self._turn, "active")
 

@@ -1,7 +1,8 @@
 """The tab that says what is computed: equations, assumptions, slips mended, limits, glossary.
 
-The text is ``assets/method.md``. Its Markdown is rendered with HTML disabled, its displayed equations by KaTeX,
-which Panel brings along: nothing is fetched from elsewhere. The one rule: the text says it, this only shows it.
+The text is ``assets/method.md``. Its Markdown is rendered with HTML disabled, its displayed equations by
+KaTeX, which Panel brings along: nothing is fetched from elsewhere. The one rule: the text says it, this only
+shows it.
 """
 
 import re

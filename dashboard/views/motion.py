@@ -25,8 +25,10 @@ BELOW = 0.3
 """What "below the resonance" is, over the loaded-track frequency [-]."""
 
 FILM_WORDS = (
-    "At time zero the wheel is set 0.1 mm below its place, on a rail at rest. Its contact spring throws it back, "
-    "waves run out along the rail, supports take them up, and what is left is the wheel on its track, dying away. "
+    "At time zero the wheel is set 0.1 mm below its place, on a rail at rest. Its contact spring throws it "
+    "back, "
+    "waves run out along the rail, supports take them up, and what is left is the wheel on its track, dying "
+    "away. "
     "Time runs as slowly as you choose; movements are drawn larger than they are, as the bar says. The rail "
     "is drawn at every element of the run; all is low-passed at 600 Hz, as the forces are."
 )

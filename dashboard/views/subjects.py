@@ -56,7 +56,7 @@ class Subject(Viewer):
         self.question = Question()
         Teacher(self.question)
         self.problem = pmui.Alert(
-            "", severity="warning", visible=False, sizing_mode="stretch_width", margin=(4, 8)
+            object="", severity="warning", visible=False, sizing_mode="stretch_width", margin=(4, 8)
         )
         self.question.param.watch(self._complain, "problem")
         self.question.param.watch(self._answered, "answer")
@@ -198,13 +198,9 @@ class Slopes(Subject):
         levels = {"level": answer.levels}
         if answer.one_stage_levels is not None:
             levels["one_stage"] = answer.one_stage_levels
-        self.figure.show(**levels)
-        self.figure.draw_asymptotes(
-            [
-                (style.THIS_DESIGN, answer.asymptotes),
-                (style.LOADED_TRACK, answer.one_stage_asymptotes),
-            ]
-        )
+        ends = [line.level[1] for line in (*answer.asymptotes, *answer.one_stage_asymptotes)]
+        self.figure.show(also=ends, **levels)
+        self.figure.draw_asymptotes(answer.asymptotes, answer.one_stage_asymptotes)
         self.table.object = slopes_html(answer.measured)
         say(self.words, answer.words)
 
@@ -298,7 +294,7 @@ class Definitions(Subject):
         Curve("energy_line", "summed energy against the line (paper)", style.THIS_DESIGN, width=3),
         Curve("energy_rigid", "summed energy against the rigid track", style.THIS_DESIGN, [7, 3]),
         Curve("coherent_line", "coherent force against the line", style.LOADED_TRACK),
-        Curve("coherent_rigid", "coherent force against the rigid track", style.LOADED_TRACK, [7, 3]),
+        Curve("coherent_rigid", "coherent force against the rigid track", style.THEORY, [7, 3]),
     )
     AGAINST = (
         Curve("rigid", "against the rigid track", style.THIS_DESIGN, width=3),
