@@ -199,10 +199,10 @@ class SweepFigure:
     """
 
     CURVES = (
-        Curve("uncoupled_wheel", "uncoupled: wheel, the block held", style.PRESET_GHOST, [2, 3], 1),
-        Curve("uncoupled_block", "uncoupled: block on its boot", style.PRESET_GHOST, [7, 4], 1),
-        Curve("lower", "chain, coupled: lower", style.LOADED_TRACK, style.SECOND_DASH),
-        Curve("upper", "chain, coupled: upper", style.COUPLED_BLOCK, style.SECOND_DASH),
+        Curve("uncoupled_wheel", "uncoupled wheel", style.PRESET_GHOST, [2, 3], 1),
+        Curve("uncoupled_block", "uncoupled block", style.PRESET_GHOST, [7, 4], 1),
+        Curve("lower", "chain, lower", style.LOADED_TRACK, style.SECOND_DASH),
+        Curve("upper", "chain, upper", style.COUPLED_BLOCK, style.SECOND_DASH),
         Curve("loaded_track", "beam: loaded track", style.LOADED_TRACK, width=style.LINE_WIDTH),
         Curve("coupled_block", "beam: coupled block", style.COUPLED_BLOCK, width=style.LINE_WIDTH),
         Curve("cut_on", "beam: waves begin", style.THEORY, [1, 3]),

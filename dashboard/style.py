@@ -168,7 +168,12 @@ select.bk-input option { color: var(--panel-on-background-color); background: va
 PLAYER_CSS = """
 :host { font-family: var(--bokeh-base-font); font-size: 15px; color: var(--panel-on-background-color); }
 .bk-btn, select.bk-input { font-size: 15px; }
-select.bk-input { color: var(--panel-on-background-color); background-color: var(--panel-background-color); }
+.bk-btn.bk-btn, select.bk-input.bk-input {
+    color: var(--panel-on-background-color);
+    background-color: var(--panel-background-color);
+}
+.noUi-target { background: color-mix(in srgb, var(--panel-on-background-color) 20%, transparent); }
+.noUi-handle { border-color: currentColor; }
 """
 """The controls beside a moving drawing, which run in the browser alone."""
 
