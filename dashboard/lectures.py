@@ -80,8 +80,8 @@ def _straddling(design, sweep):
     below, above = (frequency_text(each) for each in sorted((wheel, block)))
     sentences = (
         f"Uncoupled, the wheel would be at {frequency_text(wheel)} with the block held, the block at "
-        f"{frequency_text(block)} on its boot alone: {near}. Coupled, the chain is at {lower} and {upper}: one below {below}, one above {above}. So it "
-        "is on every design.",
+        f"{frequency_text(block)} on its boot alone: {near}. Coupled, the chain is at {lower} and {upper}: "
+        f"one below {below}, one above {above}. So it is on every design.",
     )
     if np.ptp(np.sign(np.subtract(*sweep.lumped_uncoupled))) == 0:
         return sentences

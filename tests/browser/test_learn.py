@@ -90,7 +90,7 @@ def test_the_film_is_that_of_the_design_when_it_rests(dashboard):
     assert np.isnan(column(dashboard, "film_supports", "block")).all()
 
 
-def test_a_click_on_the_curve_chooses_the_frequency_of_the_shape(dashboard):
+def test_a_click_or_a_drag_on_the_curve_chooses_the_frequency_of_the_shape(dashboard):
     look_at(dashboard, "Motion")
     model(dashboard, "pick_bands", "name")
     figure = """() => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("pick_bands_figure"))"""
@@ -108,6 +108,19 @@ def test_a_click_on_the_curve_chooses_the_frequency_of_the_shape(dashboard):
     frequency = model(dashboard, "pick", "location")
     assert frequency == pytest.approx(200, rel=0.03)
     shape = tig.steady_shape(OPENING, frequency)
+    dashboard.wait_for_function(
+        """real => Math.abs(
+            Bokeh.documents[0].get_model_by_name("shape_of_wheel").data.real[0] - real) < 1e-9""",
+        arg=float(shape.wheel[0].real),
+    )
+    dashboard.mouse.move(x, y)
+    dashboard.mouse.down()
+    for step in range(1, 11):
+        dashboard.mouse.move(x - 10 * step, y)
+    dashboard.mouse.up()
+    dragged = model(dashboard, "pick", "location")
+    assert dragged < 0.9 * frequency
+    shape = tig.steady_shape(OPENING, dragged)
     dashboard.wait_for_function(
         """real => Math.abs(
             Bokeh.documents[0].get_model_by_name("shape_of_wheel").data.real[0] - real) < 1e-9""",
