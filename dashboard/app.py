@@ -26,7 +26,9 @@ from dashboard.views.compare import Compare
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
 from dashboard.views.keep import Keep, copy_button
+from dashboard.views.learn import Learn
 from dashboard.views.level import LevelView
+from dashboard.views.method import Method
 from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
 from dashboard.views.track import Track
@@ -61,7 +63,11 @@ def build(store=None, live_store=None):
         The page, its first design solved or being solved.
     """
     pn.extension(
-        notifications=True, reconnect=False, exception_handler=tell, disconnect_notification=CONNECTION_LOST
+        "katex",
+        notifications=True,
+        reconnect=False,
+        exception_handler=tell,
+        disconnect_notification=CONNECTION_LOST,
     )
     inputs, outcome, presentation, pins = DesignInputs(), Outcome(), Presentation(), Pins()
     store = store or shared_store()
@@ -87,7 +93,9 @@ def build(store=None, live_store=None):
         SpecificationView(workshop, exchange),
         LevelView(workshop, pins, exchange),
         Track(inputs, outcome),
+        Learn(inputs, outcome, presentation),
         Verify(outcome, presentation),
+        Method(),
         Keep(keeping, exchange),
     ]
     status = Status(outcome, runner.stop, runner.solve_again)
@@ -95,7 +103,7 @@ def build(store=None, live_store=None):
     return page(sidebar, status, tabs(outcome, keeping, views), browser, exchange)
 
 
-VIEWS = (Explore, Compare, SpecificationView, LevelView, Track, Verify, Keep)
+VIEWS = (Explore, Compare, SpecificationView, LevelView, Track, Learn, Verify, Method, Keep)
 """The tabs, in their order; a link names one by its title."""
 
 
@@ -109,7 +117,7 @@ def tabs(outcome, keeping, views):
         keeping.tab = names[shown.active]
         outcome.checking = isinstance(active, Verify)
         for view in views:
-            if isinstance(view, (Compare, LevelView, SpecificationView, Track)):
+            if isinstance(view, (Compare, Learn, LevelView, SpecificationView, Track)):
                 view.look(view is active)
 
     def open_tab(*_):

@@ -96,6 +96,7 @@ SECOND_DASH = [7, 3]
 DOT_SIZE = 9
 FONT = "Roboto, Helvetica, Arial, sans-serif"
 MARKER_LABEL_SIZE = "19px"
+SIDE_VIEW_LABEL_SIZE = "16px"
 
 
 def frequency_text(frequency):
@@ -123,6 +124,11 @@ def signed_text(level):
 def plain_text(level):
     """Return a level [dB] that is no difference for a column of a table: one decimal, no unit."""
     return f"{level:.1f}".replace("-", "−")
+
+
+def slope_text(slope):
+    """Return a slope [dB per octave] with its sign, whole."""
+    return f"{slope:+.0f} dB per octave".replace("-", "−") if round(slope) else "level"
 
 
 LEAST_DIFFERENCE = 1e-6
@@ -213,6 +219,17 @@ thead th { max-width: 150px; overflow-wrap: anywhere; }
 .name { display: block; }
 .difference { display: block; font-size: 14px; font-weight: 400; opacity: 0.8; }
 """
+PLAYER_CSS = """
+:host { font-family: var(--bokeh-base-font); font-size: 15px; color: var(--panel-on-background-color); }
+.bk-btn, select.bk-input { font-size: 15px; }
+.bk-btn.bk-btn, select.bk-input.bk-input {
+    color: var(--panel-on-background-color);
+    background-color: var(--panel-background-color);
+}
+.noUi-target { background: color-mix(in srgb, var(--panel-on-background-color) 20%, transparent); }
+.noUi-handle { border-color: currentColor; }
+"""
+"""The controls beside a moving drawing, which run in the browser alone."""
 
 SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
 """A slider marks the preset's value with a tick."""
@@ -229,6 +246,7 @@ def _figure_css(height):
 TALL = _figure_css("max(300px, calc(53vh - 150px))")
 LOW = _figure_css("max(250px, calc(47vh - 140px))")
 MEDIUM = _figure_css("300px")
+HIGH = _figure_css("440px")
 SHORT = _figure_css("180px")
 """Heights of the figures: together with their headings they fill the window, and no less than is legible."""
 
@@ -300,6 +318,25 @@ li svg {{ align-self: center; }}
 MESSAGE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); }}
 div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS}; }}
+"""
+
+PROSE_WIDTH = 900
+PROSE_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); font-size: 16px; }
+p, li { line-height: 1.55; }
+table { border-collapse: collapse; }
+th, td { text-align: left; vertical-align: top; padding: 4px 16px 4px 0; font-size: 15px; }
+"""
+EQUATION_CSS = """
+:host { color: var(--panel-on-background-color); font-size: 16px; overflow-x: auto; }
+"""
+
+SLOPES_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+table { border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; margin: 6px 0; }
+caption { text-align: left; font-weight: 500; padding-bottom: 4px; }
+th, td { text-align: right; padding: 3px 18px 3px 0; }
+th { font-weight: 500; }
 """
 
 REPORT_INK = "#1b2733"

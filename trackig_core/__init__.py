@@ -13,12 +13,19 @@ from trackig_core.band_table import BandTableError
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.catalogue import PRESETS, RAILS
 from trackig_core.convergence import element_errors, time_step_errors
-from trackig_core.damping import DampingCurve, damping_curves, gain_by_loss_factor, with_loss_factor
+from trackig_core.damping import (
+    LOSS_FACTORS,
+    DampingCurve,
+    damping_curves,
+    gain_by_loss_factor,
+    with_loss_factor,
+)
 from trackig_core.design import DesignError, Rail, TrackDesign
 from trackig_core.gain import insertion_gain
 from trackig_core.grid import RunTooLargeError
 from trackig_core.harmonic import Lattice, receptance, track_decay_rate
 from trackig_core.lumped import (
+    GOOD_ENOUGH,
     LumpedComparison,
     LumpedFrequencies,
     compare_with_beam,
@@ -28,6 +35,8 @@ from trackig_core.lumped import (
     lumped_spectrum,
 )
 from trackig_core.measured import LossFactorCurve, MeasurementError, StiffnessCurve
+from trackig_core.modes import cut_on
+from trackig_core.motion import Motion, film
 from trackig_core.peer import PeerReceptance, peer_receptances
 from trackig_core.results import (
     ForceSpectrum,
@@ -48,6 +57,7 @@ from trackig_core.source import (
     a_weighting,
 )
 from trackig_core.specification import Specification, SpecificationError, Verdict
+from trackig_core.stiff_reference import StiffReferences, stiff_references
 from trackig_core.study import PinnedDesign, Study, StudyError, View
 from trackig_core.sweep import Departure, FrequencySweep, departure, frequency_sweep
 from trackig_core.verification import Verification, verify
@@ -59,6 +69,8 @@ __all__ = [
     "BAND_CENTRES",
     "BAND_EDGES",
     "BAND_LABELS",
+    "GOOD_ENOUGH",
+    "LOSS_FACTORS",
     "PRESETS",
     "RAILS",
     "Asymptote",
@@ -76,6 +88,7 @@ __all__ = [
     "LumpedFrequencies",
     "MeasuredSlope",
     "MeasurementError",
+    "Motion",
     "NaturalFrequencies",
     "PeerReceptance",
     "PinnedDesign",
@@ -88,6 +101,7 @@ __all__ = [
     "Specification",
     "SpecificationError",
     "SteadyShape",
+    "StiffReferences",
     "StiffnessCurve",
     "Study",
     "StudyError",
@@ -100,10 +114,12 @@ __all__ = [
     "a_weighting",
     "compare_with_beam",
     "compile_kernels",
+    "cut_on",
     "damping_curves",
     "departure",
     "effective_supports",
     "element_errors",
+    "film",
     "frequency_sweep",
     "gain_asymptotes",
     "gain_by_loss_factor",
@@ -116,6 +132,7 @@ __all__ = [
     "receptance",
     "solve",
     "steady_shape",
+    "stiff_references",
     "time_step_errors",
     "track_decay_rate",
     "verify",

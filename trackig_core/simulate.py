@@ -8,6 +8,7 @@ would fold down onto it.
 The one rule: nothing that is not finite leaves this module.
 """
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -98,7 +99,7 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, pr
     FloatingPointError
         If the run produced a value that is not finite.
     """
-    run = _Run(design, grid, memory_order, step)
+    run = Run(design, grid, memory_order=memory_order, step=step)
     ending = ending or Decay()
     parts = [run.collect(grid.steps, progress, cancelled)]
     while not (decayed := ending.reached(parts[-1][:, : grid.half_bays])):
@@ -165,11 +166,42 @@ class Constants(NamedTuple):
 TERMS = 3
 """Memory terms of a spring in the kernel [-]; those that a spring without loss has not are zero."""
 
-PROBES = 3
-"""Displacements that are recorded beside the forces: wheel, rail and block at the loaded support."""
+
+@dataclass(frozen=True)
+class Probes:
+    """Where displacements are recorded beside the forces, besides that of the wheel.
+
+    Attributes
+    ----------
+    rail : tuple of int
+        Rail elements, counted from the wheel.
+    blocks : tuple of int
+        Supports whose block is recorded, counted from the wheel; zero when single-stage.
+    """
+
+    rail: tuple[int, ...] = (0,)
+    blocks: tuple[int, ...] = (0,)
+
+    @property
+    def count(self):
+        """Displacements recorded, the wheel's among them."""
+        return 1 + len(self.rail) + len(self.blocks)
 
 
-def at_rest(design, grid, *, memory_order=1, step=DEFAULT_STEP, comb=NO_COMB, comb_factor=1):
+LOADED_SUPPORT = Probes()
+"""Wheel, and rail and block at the loaded support."""
+
+
+def at_rest(
+    design,
+    grid,
+    *,
+    memory_order=1,
+    step=DEFAULT_STEP,
+    probes=LOADED_SUPPORT,
+    comb=NO_COMB,
+    comb_factor=1,
+):
     """Return a track at rest under a wheel that squeezes its contact spring.
 
     Parameters
@@ -182,6 +214,8 @@ def at_rest(design, grid, *, memory_order=1, step=DEFAULT_STEP, comb=NO_COMB, co
         1 for the paper's recursion of the damping memory, 2 for the second-order one.
     step : float
         Displacement of the wheel against the contact spring [m].
+    probes : Probes
+        What is recorded beside the forces.
     comb : numpy.ndarray (taps,)
         First stage of the low-pass filter, newest first [-]; by default none.
     comb_factor : int
@@ -199,12 +233,12 @@ def at_rest(design, grid, *, memory_order=1, step=DEFAULT_STEP, comb=NO_COMB, co
         rail_velocity=aligned_zeros(layout.elements * LANES),
         supports=aligned_zeros(layout.bays, QUANTITIES * LANES),
         wheel=np.array([step, 0.0]),
-        window=aligned_zeros(comb.size, layout.columns(PROBES)),
+        window=aligned_zeros(comb.size, layout.columns(probes.count)),
     )
     constants = Constants(
         layout.mirrors(),
-        np.array([layout.rail_place(0)]),
-        np.array([layout.block_place(0)]),
+        np.array([layout.rail_place(element) for element in probes.rail], dtype=np.int64),
+        np.array([layout.block_place(support) for support in probes.blocks], dtype=np.int64),
         grid.dt,
         grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
         *_recursion(pad_law, grid.dt, memory_order),
@@ -229,20 +263,34 @@ def _recursion(law, time_step, memory_order):
     return stiffness, np.pad(decay, missing), np.pad(gain, missing)
 
 
-class _Run:
-    """One run under way: the kernel's state, and the rows that the filter still needs."""
+class Run:
+    """One run under way: the kernel's state, and the rows that the filter still needs.
 
-    def __init__(self, design, grid, memory_order, step):
+    Parameters
+    ----------
+    design, grid, memory_order, step, probes
+        As in :func:`at_rest`.
+
+    Attributes
+    ----------
+    filter : LowPass
+        The filter that precedes the thinning out.
+    steps_done : int
+        Time steps taken.
+    """
+
+    def __init__(self, design, grid, *, memory_order=1, step=DEFAULT_STEP, probes=LOADED_SUPPORT):
         self.filter = low_pass(grid.dt)
         self._state, self._constants = at_rest(
             design,
             grid,
             memory_order=memory_order,
             step=step,
+            probes=probes,
             comb=self.filter.comb,
             comb_factor=self.filter.comb_factor,
         )
-        self._layout = Layout(grid)
+        self._layout, self._probes = Layout(grid), probes
         self._dt = grid.dt
         columns = self._state.window.shape[1]
         self._block = max(LEAST_BLOCK, BLOCK_BYTES // (8 * columns * self.filter.factor))
@@ -251,16 +299,28 @@ class _Run:
         self.steps_done = 0
         self._fraction = 0.0
 
-    def collect(self, steps, progress, cancelled):
+    def collect(self, steps, progress=None, cancelled=None):
         """Take about ``steps`` time steps and return their decimated samples, supports in order, then probes.
+
+        Parameters
+        ----------
+        steps : int
+            Time steps.
+        progress, cancelled : callable, optional
+            As in :func:`simulate`.
 
         Returns
         -------
-        numpy.ndarray (samples, half_bays + 3)
-            Forces [N]; displacements of wheel, rail and block at the loaded support [m].
+        numpy.ndarray (samples, half_bays + probes)
+            Forces [N]; displacements of the wheel and of the probes on rail and blocks [m].
+
+        Raises
+        ------
+        SolveCancelled, FloatingPointError
+            As in :func:`simulate`.
         """
         count = round(steps / self.filter.steps_per_sample)
-        samples = np.empty((count, self._layout.width(PROBES)))
+        samples = np.empty((count, self._layout.width(self._probes.count)))
         began = self._fraction
         for first in range(0, count, self._block):
             if cancelled is not None and cancelled():

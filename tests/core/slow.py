@@ -7,10 +7,11 @@ no tricks: no symmetry, no reordered memory, no fused loops.
 import numpy as np
 
 
-def run_ring(design, pad, boot, bays, per_bay, time_step, steps, *, step=1e-4):
+def run_ring(design, pad, boot, bays, per_bay, time_step, steps, *, step=1e-4, frames=None):
     """Return support forces (steps, bays) [N], and the final rail, block and wheel displacements [m].
 
-    ``pad`` and ``boot`` are relaxation laws, ``boot`` None when single-stage.
+    ``pad`` and ``boot`` are relaxation laws, ``boot`` None when single-stage. A list ``frames`` takes wheel,
+    rail and blocks in one row as they stand at each step.
     """
     dx, dt = design.fastener_spacing / per_bay, time_step
     m, EI = design.rail.mass_per_metre, design.rail.bending_stiffness
@@ -20,6 +21,8 @@ def run_ring(design, pad, boot, bays, per_bay, time_step, steps, *, step=1e-4):
     pad_memory, boot_memory = np.zeros((3, bays)), np.zeros((3, bays))
     forces = np.empty((steps, bays))
     for n in range(steps):
+        if frames is not None:
+            frames.append(np.concatenate([[w], a, b]))
         fourth = np.roll(a, 2) - 4 * np.roll(a, 1) + 6 * a - 4 * np.roll(a, -1) + np.roll(a, -2)
         f = _spring(pad, a[::per_bay] - b, pad_memory, dt)
         c = design.contact_stiffness * (w - a[0])

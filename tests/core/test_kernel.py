@@ -11,7 +11,7 @@ from trackig_core import kernel
 from trackig_core.grid import make_grid
 from trackig_core.layout import GHOSTS, Layout
 from trackig_core.relaxation import laws
-from trackig_core.simulate import PROBES, at_rest
+from trackig_core.simulate import LOADED_SUPPORT, at_rest
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
 
@@ -25,9 +25,9 @@ def step_through(design, grid, steps, **choices):
 def advance(state, constants, grid, steps, step=kernel.advance):
     """Step on from the start and return the record (steps, half_bays + 3), supports in order."""
     layout = Layout(grid)
-    rows = np.empty((steps, layout.columns(PROBES)))
+    rows = np.empty((steps, layout.columns(LOADED_SUPPORT.count)))
     step(*state, *constants, 0, rows)
-    record = np.empty((steps, layout.width(PROBES)))
+    record = np.empty((steps, layout.width(LOADED_SUPPORT.count)))
     layout.put_in_order(rows, record)
     return record
 
@@ -94,10 +94,10 @@ def test_the_window_keeps_a_weighted_sum_of_the_last_rows_across_calls(taps):
     _, full = step_through(BLOCK, grid, 96)
     layout = Layout(grid)
     state, constants = at_rest(BLOCK, grid, comb=comb, comb_factor=4)
-    rows = np.empty((24, layout.columns(PROBES)))
+    rows = np.empty((24, layout.columns(LOADED_SUPPORT.count)))
     kernel.advance(*state, *constants, 0, rows[:5])
     kernel.advance(*state, *constants, 20, rows[5:])
-    kept = np.empty((24, layout.width(PROBES)))
+    kept = np.empty((24, layout.width(LOADED_SUPPORT.count)))
     layout.put_in_order(rows, kept)
     expected = np.array([np.convolve(column, comb)[3:96:4] for column in full.T]).T
     assert kept == pytest.approx(expected, rel=1e-9, abs=1e-12 * np.abs(full).max())
@@ -136,7 +136,7 @@ def test_without_damping_the_leap_frog_energy_stays(design):
     design = design.replace(**loss_free)
     grid = make_grid(design, bays=101)
     state, constants = at_rest(design, grid)
-    row = np.empty((1, Layout(grid).columns(PROBES)))
+    row = np.empty((1, Layout(grid).columns(LOADED_SUPPORT.count)))
     # velocities live half a step after displacements: kinetic + half the work of forces at both instants
     energies = []
     for step in range(10_000):

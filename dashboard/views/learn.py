@@ -1,0 +1,74 @@
+"""The tab in which a track is understood: a menu of subjects, of which one is looked at.
+
+A subject is made when it is first looked at, and its questions are answered only while it is. The one
+rule: what nobody looks at costs nothing.
+"""
+
+from functools import partial
+
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+from dashboard.views.lessons import Lessons
+from dashboard.views.motion import Motion
+from dashboard.views.subjects import Damping, Definitions, Ladder, Resonances, Slopes
+
+EXPLAINING = (Motion, Resonances, Slopes, Damping, Definitions, Ladder)
+"""Subjects beside the lessons, in the order of the menu."""
+
+
+class Learn(Viewer):
+    """Lessons, and the subjects behind them.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        The sliders that lessons set.
+    outcome : Outcome
+        Whose design is explained.
+    presentation : Presentation
+        How insertion gain is reckoned.
+    """
+
+    title = "Learn"
+
+    def __init__(self, inputs, outcome, presentation):
+        super().__init__()
+        self._makers = {
+            "Lessons": partial(Lessons, outcome, presentation, inputs),
+            **{kind.title: partial(kind, outcome, presentation) for kind in EXPLAINING},
+        }
+        self._made = {}
+        self._looked_at = False
+        self._places = {title: pn.Column(sizing_mode="stretch_width", margin=0) for title in self._makers}
+        self.menu = pmui.Tabs(*self._places.items(), sizing_mode="stretch_width", margin=(0, 8, 8, 8))
+        self.menu.param.watch(self._turn, "active")
+
+    @property
+    def subject(self):
+        """The subject that the menu stands at, made if it has not been."""
+        title = list(self._makers)[self.menu.active]
+        if title not in self._made:
+            self._made[title] = made = self._makers[title]()
+            # drawn before it is put on the page: the browser lays it out once
+            made.question.param.watch(partial(self._put, self._places[title], made), "answered")
+        return self._made[title]
+
+    def look(self, looked_at):
+        """Be told whether anybody looks at this tab."""
+        self._looked_at = looked_at
+        self._turn()
+
+    def _turn(self, *_):
+        seen = self.subject if self._looked_at else None
+        for subject in self._made.values():
+            subject.question.looked_at = subject is seen
+
+    def _put(self, place, subject, _):
+        if not place.objects:
+            place.append(subject)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return self.menu

@@ -1,0 +1,150 @@
+"""The subject that shows the track in motion: after the step, and steadily at any one frequency.
+
+The film is that of the design at rest; the steady shape follows the hand, since the exact twin gives it in a
+millisecond. The one rule: what moves on the screen is moved by the browser; the server sends what moves once.
+"""
+
+import math
+
+import panel_material_ui as pmui
+from bokeh.models import CustomJSTickFormatter
+
+import trackig_core as tig
+from dashboard import lectures
+from dashboard.controls import QuickSlider
+from dashboard.figures import BAND_AXIS
+from dashboard.learn_figures import PickFigure
+from dashboard.motion_figures import FilmPlayer, ShapePlayer
+from dashboard.views.explore import bokeh_pane, gain_axis
+from dashboard.views.subjects import Subject, panel_of, words
+
+STEPS_PER_DECADE = 100
+"""Steps of the frequency's slider from a value to its tenfold."""
+
+BELOW = 0.3
+"""What "below the resonance" is, over the loaded-track frequency [-]."""
+
+FILM_WORDS = (
+    "At time zero the wheel is set 0.1 mm below its place, on a rail at rest. Its contact spring throws it "
+    "back, "
+    "waves run out along the rail, supports take them up, and what is left is the wheel on its track, dying "
+    "away. "
+    "Time runs as slowly as you choose; movements are drawn larger than they are, as the bar says. The rail "
+    "is drawn at every element of the run; all is low-passed at 600 Hz, as the forces are."
+)
+
+
+class Motion(Subject):
+    """Rail, wheel and blocks in motion."""
+
+    title = "Motion"
+    at_rest_only = True
+
+    def __init__(self, outcome, presentation):
+        super().__init__(outcome, presentation)
+        self.film, self.shape = FilmPlayer(), ShapePlayer()
+        self.pick = PickFigure(frequency=100.0)
+        self.shape_words = words()
+        self.frequency = QuickSlider(
+            label="Frequency, Hz",
+            start=0,
+            end=_position(BAND_AXIS[1]),
+            step=1,
+            value=_position(100.0),
+            format=CustomJSTickFormatter(
+                code=f"return (({BAND_AXIS[0]}) * 10 ** (tick / {STEPS_PER_DECADE})).toPrecision(3)"
+            ),
+            show_value=True,
+            tooltips=False,
+            size="small",
+            sizing_mode="stretch_width",
+            margin=(8, 16),
+        )
+        self.jumps = pmui.Row(
+            *(
+                pmui.Button(
+                    label=label,
+                    variant="outlined",
+                    size="small",
+                    on_click=self._jump(which),
+                    margin=(0, 6, 6, 0),
+                )
+                for label, which in (
+                    ("Below resonance", _below),
+                    ("Loaded track", lambda natural: natural.loaded_track),
+                    ("Coupled block", lambda natural: natural.coupled_block),
+                )
+            ),
+            margin=(0, 14),
+        )
+        self.pick.cursor.on_change("location", self._picked)
+        self.frequency.param.watch(self._slid, "value")
+        outcome.param.watch(self._show_shape, "picture")
+        presentation.param.watch(self._show_shape, ["reference", "summation"])
+        self.question.param.watch(self._show_shape, "looked_at")
+        self._follow()
+
+    def ask(self, design):
+        """Return the question about a design."""
+        return tig.film, design
+
+    def show(self, answer):
+        """Show a film."""
+        self.film.show(answer)
+
+    def _jump(self, which):
+        def jump(_):
+            picture = self.outcome.picture
+            frequency = None if picture is None else which(picture.solution.natural_frequencies)
+            if frequency is not None:
+                self.pick.cursor.location = min(max(frequency, BAND_AXIS[0]), BAND_AXIS[1])
+
+        return jump
+
+    def _slid(self, event):
+        # a slider that follows the cursor must not round where it stands
+        if event.new != round(_position(self.pick.cursor.location)):
+            self.pick.cursor.location = BAND_AXIS[0] * 10 ** (event.new / STEPS_PER_DECADE)
+
+    def _picked(self, _attribute, _old, frequency):
+        self.frequency.value = round(_position(frequency))
+        self._show_shape()
+
+    def _show_shape(self, *_):
+        picture = self.outcome.picture
+        if picture is None or not self.question.looked_at:
+            return
+        self.pick.name_axis(gain_axis(self.presentation))
+        self.pick.show(level=self.presentation.levels(picture.solution))
+        shape = tig.steady_shape(picture.design, float(self.pick.cursor.location))
+        self.shape.show(shape)
+        self.shape_words.object = lectures.shape_words(shape)
+        self.jumps[2].disabled = not picture.design.two_stage
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        film_words = words()
+        film_words.object = FILM_WORDS
+        return pmui.Column(
+            panel_of("After the step", self.problem, bokeh_pane(self.film.model), film_words),
+            panel_of(
+                "Steady vibration at one frequency",
+                bokeh_pane(self.pick.model),
+                self.frequency,
+                self.jumps,
+                bokeh_pane(self.shape.model),
+                self.shape_words,
+                explanation="click or drag on the curve to choose the frequency",
+            ),
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+
+def _below(natural):
+    return BELOW * natural.loaded_track
+
+
+def _position(frequency):
+    """Return where on its slider a frequency stands [Hz]."""
+    return STEPS_PER_DECADE * math.log10(frequency / BAND_AXIS[0])

@@ -1,0 +1,368 @@
+"""The subjects of the *Learn* tab that explain the curves: resonances, slopes, damping, definitions, ladder.
+
+Each asks a question of :mod:`dashboard.lectures` about the design at hand, and draws the answer. The one
+rule: a subject asks and draws; it computes nothing itself.
+"""
+
+import panel as pn
+import panel_material_ui as pmui
+from panel.viewable import Viewer
+
+import trackig_core as tig
+from dashboard import lectures, style
+from dashboard.check_figures import DampingFigure
+from dashboard.learn_figures import (
+    BandsFigure,
+    Curve,
+    LadderFigure,
+    SlopesFigure,
+    StiffReferenceFigure,
+    SweepFigure,
+)
+from dashboard.state import NUMBERS, SECOND_STAGE, DesignInputs, to_display
+from dashboard.teacher import Question, Teacher
+from dashboard.views.explore import PAPER, bokeh_pane, caption, gain_axis
+
+HALF = {"xs": 12, "lg": 6}
+
+OPENING_FIELD = "boot_stiffness"
+"""The slider against which resonances are drawn at first."""
+
+
+class Subject(Viewer):
+    """What all subjects share: a question about the design at hand, answered while it is looked at.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        Whose design is asked about.
+    presentation : Presentation
+        How insertion gain is reckoned.
+
+    Attributes
+    ----------
+    title : str
+        What the menu calls it.
+    question : Question
+        What is asked.
+    """
+
+    title = ""
+    at_rest_only = False
+
+    def __init__(self, outcome, presentation):
+        super().__init__()
+        self.outcome, self.presentation = outcome, presentation
+        self.question = Question()
+        Teacher(self.question)
+        self.problem = pmui.Alert(
+            object="", severity="warning", visible=False, sizing_mode="stretch_width", margin=(4, 8)
+        )
+        self.question.param.watch(self._complain, "problem")
+        self.question.param.watch(self._answered, "answer")
+        outcome.param.watch(self._follow, "picture")
+        presentation.param.watch(self._follow, ["reference", "summation"])
+
+    def _follow(self, *_):
+        picture = self.outcome.picture
+        if picture is None or (self.at_rest_only and picture.solution.fidelity == "live"):
+            return
+        self.question.asked = self.ask(picture.design)
+
+    def _complain(self, *_):
+        self.problem.param.update(object=self.question.problem, visible=bool(self.question.problem))
+
+    def _answered(self, *_):
+        if self.question.answer is not None:
+            self.show(self.question.answer)
+
+    def ask(self, design):
+        """Return the question about a design: a function and its arguments."""
+        raise NotImplementedError
+
+    def show(self, answer):
+        """Draw an answer."""
+        raise NotImplementedError
+
+    @property
+    def definition(self):
+        """How insertion gain is reckoned, as arguments of a lecture."""
+        return self.presentation.reference, self.presentation.summation
+
+
+def words(*_):
+    """Return an empty text below a figure."""
+    return pmui.Typography("", variant="body1", margin=(2, 14, 10, 14))
+
+
+def say(text, sentences):
+    """Let a text say some sentences, which are made from numbers and this program's own words."""
+    text.object = "<br><br>".join(sentences)
+
+
+def panel_of(title, *parts, explanation=""):
+    """Return parts under a heading, as one panel of the page."""
+    return pmui.Paper(caption(title, explanation), *parts, **PAPER)
+
+
+def pair(left, right):
+    """Return two parts side by side, one above the other where the window is narrow."""
+    return pmui.Grid(
+        pmui.Grid(left, size=HALF),
+        pmui.Grid(right, size=HALF),
+        container=True,
+        sizing_mode="stretch_width",
+    )
+
+
+class Resonances(Subject):
+    """Natural frequencies against any slider, the design at hand as a point that moves along."""
+
+    title = "Resonances"
+
+    def __init__(self, outcome, presentation):
+        super().__init__(outcome, presentation)
+        self.figure, self.words = SweepFigure(), words()
+        self.field = pn.widgets.Select(
+            label="Against",
+            options=_fields(two_stage=True),
+            value=OPENING_FIELD,
+            width=260,
+            margin=(0, 12, 0, 12),
+            stylesheets=[style.SELECT_CSS],
+        )
+        self.field.param.watch(self._follow, "value")
+        outcome.param.watch(self._point, "picture")
+        self._follow()
+
+    def ask(self, design):
+        """Return the question about a design."""
+        fields = _fields(design.two_stage)
+        chosen = self.field.value if self.field.value in fields.values() else "pad_stiffness"
+        self.field.param.update(options=fields, value=chosen)
+        return lectures.resonances, design, chosen
+
+    def show(self, answer):
+        """Draw a sweep."""
+        self.figure.show(DesignInputs.param[answer.sweep.field].label, answer.values, answer.sweep)
+        say(self.words, answer.words)
+        self._point()
+
+    def _point(self, *_):
+        picture, answer = self.outcome.picture, self.question.answer
+        if picture is None or answer is None:
+            return
+        name, natural = answer.sweep.field, picture.solution.natural_frequencies
+        if getattr(picture.design, name) is None:
+            return
+        both = (natural.loaded_track, natural.coupled_block)
+        self.figure.point(
+            to_display(name, getattr(picture.design, name)), [each for each in both if each is not None]
+        )
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return panel_of(
+            "Where the resonances come from",
+            self.field,
+            self.problem,
+            bokeh_pane(self.figure.model),
+            self.words,
+        )
+
+
+def _fields(two_stage):
+    return {DesignInputs.param[name].label: name for name in NUMBERS if two_stage or name not in SECOND_STAGE}
+
+
+class Slopes(Subject):
+    """Insertion gain with the asymptotes of its chain on demand, and measured slopes beside."""
+
+    title = "Slopes"
+
+    def __init__(self, outcome, presentation):
+        super().__init__(outcome, presentation)
+        self.figure, self.words = SlopesFigure(), words()
+        self.toggle = pmui.Switch(label="Draw the asymptotes", value=True, margin=(0, 12))
+        self.toggle.param.watch(lambda event: self.figure.show_asymptotes(event.new), "value")
+        self.table = pn.pane.HTML("", stylesheets=[style.SLOPES_CSS], margin=(0, 14))
+        self._follow()
+
+    def ask(self, design):
+        """Return the question about a design."""
+        return lectures.slopes, design, *self.definition
+
+    def show(self, answer):
+        """Draw curves and asymptotes."""
+        self.figure.name_axis(gain_axis(self.presentation))
+        levels = {"level": answer.levels}
+        if answer.one_stage_levels is not None:
+            levels["one_stage"] = answer.one_stage_levels
+        ends = [line.level[1] for line in (*answer.asymptotes, *answer.one_stage_asymptotes)]
+        self.figure.show(also=ends, **levels)
+        self.figure.draw_asymptotes(answer.asymptotes, answer.one_stage_asymptotes)
+        self.table.object = slopes_html(answer.measured)
+        say(self.words, answer.words)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return panel_of(
+            "Slopes",
+            self.toggle,
+            self.problem,
+            bokeh_pane(self.figure.model),
+            self.table,
+            self.words,
+            explanation="the chain's straight asymptotes, dotted; exact insertion gain, drawn out",
+        )
+
+
+SLOPE_HEADINGS = ("At", "Asymptote", "Damped chain", "Beam")
+
+
+def slopes_html(measured):
+    """Return measured slopes as a table, made of numbers and of this module's own words."""
+    head = "".join(f'<th scope="col">{words}</th>' for words in SLOPE_HEADINGS)
+    rows = "".join(
+        "<tr>" + "".join(f"<td>{text}</td>" for text in row) + "</tr>"
+        for row in lectures.slope_rows(measured)
+    )
+    caption_text = "Slopes of this design, dB per octave"
+    return (
+        f"<table><caption>{caption_text}</caption><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+    )
+
+
+class Damping(Subject):
+    """Stiffness and loss factor over frequency, and insertion gain at three loss factors."""
+
+    title = "Damping"
+
+    CURVES = tuple(
+        Curve(f"loss_{number}", f"loss factor {factor:g}", colour, dash)
+        for number, (factor, colour, dash) in enumerate(
+            zip(
+                tig.LOSS_FACTORS,
+                (style.LOADED_TRACK, style.THIS_DESIGN, style.COUPLED_BLOCK),
+                ("solid", [7, 3], [2, 3]),
+                strict=True,
+            )
+        )
+    )
+
+    def __init__(self, outcome, presentation):
+        super().__init__(outcome, presentation)
+        self.stiffness = DampingFigure("taught_stiffness", "Stiffness over that at 50 Hz", "top_left")
+        self.loss_factor = DampingFigure("taught_loss_factor", "Loss factor", "bottom_left")
+        self.gain = BandsFigure("gain_by_loss", self.CURVES)
+        self.words = words()
+        self._follow()
+
+    def ask(self, design):
+        """Return the question about a design."""
+        return lectures.damping, design, *self.definition
+
+    def show(self, answer):
+        """Draw the laws and what they do."""
+        curves = {"pad": answer.pad, "boot": answer.boot}
+        for figure, of in ((self.stiffness, "stiffness"), (self.loss_factor, "loss_factor")):
+            drawn = dict.fromkeys(("pad", "boot", "pad_stated", "boot_stated"), lectures.NOT_THERE)
+            drawn |= {part: getattr(curve, of) for part, curve in curves.items() if curve is not None}
+            figure.show(lectures.DAMPED, **drawn)
+        self.gain.name_axis(gain_axis(self.presentation))
+        self.gain.show(**{curve.column: row for curve, row in zip(self.CURVES, answer.levels, strict=True)})
+        say(self.words, answer.words)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return panel_of(
+            "Damping",
+            self.problem,
+            pair(bokeh_pane(self.stiffness.model), bokeh_pane(self.loss_factor.model)),
+            bokeh_pane(self.gain.model),
+            self.words,
+            explanation="below: pads and boots alike at three loss factors, all else as it is",
+        )
+
+
+class Definitions(Subject):
+    """The same track by four definitions, and the false peak of a very stiff reference."""
+
+    title = "Definitions"
+
+    FOUR = (
+        Curve("energy_line", "summed energy against the line (paper)", style.THIS_DESIGN, width=3),
+        Curve("energy_rigid", "summed energy against the rigid track", style.THIS_DESIGN, [7, 3]),
+        Curve("coherent_line", "coherent force against the line", style.LOADED_TRACK),
+        Curve("coherent_rigid", "coherent force against the rigid track", style.THEORY, [7, 3]),
+    )
+    AGAINST = (
+        Curve("rigid", "against the rigid track", style.THIS_DESIGN, width=3),
+        Curve("stiffened", "very stiff, contact stiffened too", style.COUPLED_BLOCK, [7, 3]),
+        Curve("real", "very stiff, contact spring as it is", style.SPECIFICATION, [7, 3]),
+    )
+
+    def __init__(self, outcome, presentation):
+        super().__init__(outcome, presentation)
+        self.four = BandsFigure("definitions", self.FOUR)
+        self.references = StiffReferenceFigure()
+        self.against = BandsFigure("against_stiff", self.AGAINST, "Insertion gain, dB (summed energy)")
+        self.words, self.stiff_words = words(), words()
+        self._follow()
+
+    def ask(self, design):
+        """Return the question about a design."""
+        return lectures.definitions, design
+
+    def show(self, answer):
+        """Draw four definitions, and very stiff references."""
+        self.four.show(**answer.levels)
+        self.references.show(answer.stiff)
+        stiff = answer.stiff
+        self.against.show(rigid=stiff.gain_rigid, stiffened=stiff.gain_stiffened, real=stiff.gain_real)
+        say(self.words, answer.words)
+        say(self.stiff_words, answer.stiff_words)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return pmui.Column(
+            panel_of("One track, four figures", self.problem, bokeh_pane(self.four.model), self.words),
+            panel_of(
+                "The false peak of a very stiff track",
+                pair(bokeh_pane(self.references.model), bokeh_pane(self.against.model)),
+                self.stiff_words,
+            ),
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+
+class Ladder(Subject):
+    """The one-dimensional chain beside the beam, and where it will do."""
+
+    title = "Ladder"
+
+    def __init__(self, outcome, presentation):
+        super().__init__(outcome, presentation)
+        self.figure, self.words = LadderFigure(), words()
+        self._follow()
+
+    def ask(self, design):
+        """Return the question about a design."""
+        return lectures.ladder, design, *self.definition
+
+    def show(self, answer):
+        """Draw both, and shade where they agree."""
+        self.figure.name_axis(gain_axis(self.presentation))
+        self.figure.show_comparison(answer.comparison)
+        say(self.words, answer.words)
+
+    def __panel__(self):
+        """Return what is put on the page."""
+        return panel_of(
+            "The ladder of simplification",
+            self.problem,
+            bokeh_pane(self.figure.model),
+            self.words,
+            explanation="a chain of two springs and two masses, beside the rail as a beam",
+        )

@@ -1,0 +1,218 @@
+"""Learning in a real browser: films and lessons are the solver's, and nothing is fetched."""
+
+import re
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+import trackig_core as tig
+from dashboard import motion_figures
+from dashboard.lessons import load_lessons, reveal
+from tests.browser.test_dashboard import box, choose, column, wait_for_levels
+
+pytestmark = pytest.mark.browser
+
+OPENING = tig.PRESETS["booted-block-low-mass"]
+
+LESSONS = load_lessons()[0]
+
+
+def look_at(page, subject):
+    page.get_by_role("tab", name="Learn", exact=True).click()
+    page.get_by_role("tab", name=subject, exact=True).click()
+
+
+def model(page, name, attribute):
+    """Read a property of a model in the browser; wait until the model is there."""
+    page.wait_for_function("name => Bokeh.documents[0].get_model_by_name(name) != null", arg=name)
+    return page.evaluate(
+        "([name, attribute]) => Bokeh.documents[0].get_model_by_name(name)[attribute]", [name, attribute]
+    )
+
+
+def set_model(page, name, attribute, value):
+    page.evaluate(
+        "([name, attribute, value]) => { Bokeh.documents[0].get_model_by_name(name)[attribute] = value }",
+        [name, attribute, value],
+    )
+
+
+@pytest.mark.parametrize("frame", [0, 57, 300, 614])
+def test_the_browser_draws_the_film_s_own_frames(dashboard, frame):
+    look_at(dashboard, "Motion")
+    motion = tig.film(OPENING)
+    model(dashboard, "film_slider", "value")
+    set_model(dashboard, "film_slider", "value", 1000 * motion.time[frame])
+    scale = column(dashboard, "film_facts", "scale")[0]
+    height = column(dashboard, "film_rail", "y")
+    moved = -(height - motion_figures.RAIL_AT) / scale / 1e6
+    np.testing.assert_allclose(moved[36:], motion.rail[frame], atol=1e-6 * motion.step)
+    np.testing.assert_allclose(moved, moved[::-1])
+    blocks = (motion_figures.BLOCK_AT - column(dashboard, "film_supports", "block")) / scale / 1e6
+    np.testing.assert_allclose(blocks[12:], motion.block[frame], atol=1e-6 * motion.step)
+    wheel = (motion_figures.WHEEL_AT - column(dashboard, "film_wheel", "y")[0]) / scale / 1e6
+    assert wheel == pytest.approx(motion.wheel[frame], abs=1e-6 * motion.step)
+
+
+def test_the_film_plays_in_the_browser_alone_and_pauses(dashboard):
+    look_at(dashboard, "Motion")
+    model(dashboard, "film_slider", "value")
+    dashboard.wait_for_timeout(1000)
+    dashboard.evaluate("""() => {
+        window.sent = 0
+        const send = WebSocket.prototype.send
+        WebSocket.prototype.send = function (...data) { window.sent += 1; return send.apply(this, data) }
+    }""")
+    play = dashboard.get_by_role("button", name="Play").first
+    play.click()
+    dashboard.wait_for_function("() => Bokeh.documents[0].get_model_by_name('film_slider').value > 10")
+    heights = [column(dashboard, "film_rail", "y")]
+    dashboard.wait_for_timeout(500)
+    heights.append(column(dashboard, "film_rail", "y"))
+    assert not np.array_equal(*heights)
+    assert dashboard.evaluate("() => window.sent") == 0
+    dashboard.get_by_role("button", name="Pause").first.click()
+    stands = model(dashboard, "film_slider", "value")
+    dashboard.wait_for_timeout(300)
+    assert model(dashboard, "film_slider", "value") == stands
+
+
+def test_the_film_is_that_of_the_design_when_it_rests(dashboard):
+    look_at(dashboard, "Motion")
+    model(dashboard, "film", "name")
+    choose(dashboard, "Track of Table 1", "Slab track")
+    expected = tig.film(tig.PRESETS["slab-track"])
+    dashboard.wait_for_function(
+        """wheel => Math.abs(Bokeh.documents[0].get_model_by_name("film").data.wheel[40] - wheel) < 1e-3""",
+        arg=float(1e6 * expected.wheel[40]),
+    )
+    assert np.isnan(column(dashboard, "film_supports", "block")).all()
+
+
+def test_a_click_or_a_drag_on_the_curve_chooses_the_frequency_of_the_shape(dashboard):
+    look_at(dashboard, "Motion")
+    model(dashboard, "pick_bands", "name")
+    figure = """() => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("pick_bands_figure"))"""
+    dashboard.evaluate(f"() => ({figure})().el.scrollIntoView()")
+    dashboard.wait_for_timeout(500)
+    x, y = dashboard.evaluate(
+        f"""() => {{
+            const view = ({figure})(), box = view.canvas_view.el.getBoundingClientRect()
+            return [box.x + view.frame.x_scale.compute(200), box.y + view.frame.bbox.top + 40]
+        }}"""
+    )
+    dashboard.mouse.click(x, y)
+    said = dashboard.get_by_text(re.compile(r"At (19\d|20\d) Hz the wheel moves"))
+    expect(said).to_be_visible()
+    frequency = model(dashboard, "pick", "location")
+    assert frequency == pytest.approx(200, rel=0.03)
+    shape = tig.steady_shape(OPENING, frequency)
+    dashboard.wait_for_function(
+        """real => Math.abs(
+            Bokeh.documents[0].get_model_by_name("shape_of_wheel").data.real[0] - real) < 1e-9""",
+        arg=float(shape.wheel[0].real),
+    )
+    dashboard.mouse.move(x, y)
+    dashboard.mouse.down()
+    for step in range(1, 11):
+        dashboard.mouse.move(x - 10 * step, y)
+    dashboard.mouse.up()
+    dragged = model(dashboard, "pick", "location")
+    assert dragged < 0.9 * frequency
+    shape = tig.steady_shape(OPENING, dragged)
+    dashboard.wait_for_function(
+        """real => Math.abs(
+            Bokeh.documents[0].get_model_by_name("shape_of_wheel").data.real[0] - real) < 1e-9""",
+        arg=float(shape.wheel[0].real),
+    )
+    set_model(dashboard, "shape_slider", "value", 120)
+    turned = (shape.rail[:, 0] * np.exp(1j * np.radians(120))).real
+    scale = column(dashboard, "shape_facts", "scale")[0]
+    moved = -column(dashboard, "shape_rail", "y") / scale
+    np.testing.assert_allclose(moved, turned, atol=1e-6 * np.abs(turned).max())
+
+
+@pytest.mark.parametrize("number", range(len(LESSONS)), ids=[lesson.file for lesson in LESSONS])
+def test_a_lesson_runs_and_reveals_what_the_solver_finds(dashboard, number):
+    lesson = LESSONS[number]
+    before, after = lesson.designs()
+    revealed = reveal(lesson)
+    assert revealed.problems == ()
+    look_at(dashboard, "Lessons")
+    choose(dashboard, "Lesson", f"{number + 1}. {lesson.title}")
+    expect(dashboard.get_by_text(lesson.question)).to_be_visible()
+    dashboard.get_by_role("button", name="Set where it starts").click()
+    wait_for_levels(dashboard, tig.solve(before).insertion_gain)
+    dashboard.get_by_role("button", name="Move the slider for me").click()
+    wait_for_levels(dashboard, tig.solve(after).insertion_gain)
+    np.testing.assert_allclose(column(dashboard, "lesson", "level"), tig.solve(after).insertion_gain)
+    dashboard.get_by_role("radio", name=lesson.choices[revealed.right.index(True)].text, exact=True).check()
+    dashboard.get_by_role("button", name="Reveal").click()
+    expect(dashboard.get_by_text("Right.", exact=True)).to_be_visible()
+    # the figures of the text, as computed here for the lesson's own two designs
+    words = re.sub(r"[*_]", "", revealed.reveal.split("\n\n")[0].replace("\n", " ").strip())
+    expect(dashboard.get_by_text(words)).to_be_visible()
+    for control in dashboard.get_by_role("slider").all():
+        if after.two_stage and control.get_attribute("aria-label"):
+            expect(control).to_be_enabled()
+
+
+def test_lessons_leave_the_sliders_to_the_hand(dashboard):
+    look_at(dashboard, "Lessons")
+    dashboard.get_by_role("button", name="Move the slider for me").click()
+    expect(box(dashboard, "Boot stiffness, kN/mm")).to_have_value("14")
+    field = box(dashboard, "Boot stiffness, kN/mm")
+    field.fill("50")
+    field.press("Enter")
+    wait_for_levels(dashboard, tig.solve(OPENING.replace(boot_stiffness=50e6)).insertion_gain)
+
+
+@pytest.mark.parametrize(
+    ("subject", "words"),
+    [
+        ("Resonances", "one below"),
+        ("Slopes", "The damped chain has"),
+        ("Damping", "No material can lose energy"),
+        ("Definitions", "The two sums are farthest apart"),
+        ("Ladder", "It is within 3 dB of the beam"),
+    ],
+)
+@pytest.mark.parametrize("width", [1024, 1920])
+def test_every_subject_is_told_within_the_window(open_dashboard, subject, words, width):
+    page = open_dashboard(width=width, height=768)
+    look_at(page, subject)
+    expect(page.get_by_text(words)).to_be_visible()
+    assert page.evaluate("() => document.scrollingElement.scrollWidth") <= width
+
+
+def test_the_resonances_point_follows_the_slider(dashboard):
+    look_at(dashboard, "Resonances")
+    model(dashboard, "present", "name")
+    field = box(dashboard, "Boot stiffness, kN/mm")
+    field.fill("14")
+    field.press("Enter")
+    natural = tig.solve(OPENING.replace(boot_stiffness=14e6), "exact").natural_frequencies
+    dashboard.wait_for_function(
+        """expected => {
+            const {value, frequency} = Bokeh.documents[0].get_model_by_name("present").data
+            return value[0] == 14 && expected.every((each, i) => Math.abs(frequency[i] - each) < 1e-6)
+        }""",
+        arg=[natural.loaded_track, natural.coupled_block],
+    )
+
+
+def test_the_method_s_equations_are_shown_and_nothing_is_fetched(dashboard):
+    """What is requested from elsewhere fails every test that opens a page."""
+    dashboard.get_by_role("tab", name="Method").click()
+    expect(dashboard.get_by_role("heading", name="Glossary")).to_be_attached()
+    expect(dashboard.locator("math").first).to_be_visible()
+    assert dashboard.locator("math").count() >= 10
+    sizes = dashboard.locator("math").evaluate_all(
+        "all => all.map(each => each.getBoundingClientRect().width)"
+    )
+    assert min(sizes) > 30
+    assert dashboard.get_by_text("$$").count() == 0
+    # TeX stands there only as the annotation that browsers hide
+    raw = dashboard.get_by_text("\\frac").evaluate_all("all => all.map(each => each.localName)")
+    assert set(raw) <= {"annotation"}
