@@ -53,7 +53,9 @@ class Scripted(pn.custom.JSComponent):
         """Do what a message of the script asks for; one of another form asks for nothing."""
 
     def _handle_msg(self, message):
-        in_turn(pn.state.curdoc, partial(self._heed_in_turn, message))
+        heed = partial(in_turn, pn.state.curdoc, partial(self._heed_in_turn, message))
+        # what changes before the page says that it is loaded would not reach it
+        heed() if pn.state.loaded else pn.state.onload(heed)
 
     def _heed_in_turn(self, message, document):
         try:

@@ -55,7 +55,7 @@ def force_csv(assessed):
             continue
         header += [f"{name} {each.name}" for name in ("time_s", "total_force_kN", "loaded_support_force_kN")]
         curves = (picture.time, picture.total_force, picture.loaded_support_force)
-        columns += [[f"{value:.7g}" for value in curve] for curve in curves]
+        columns += [[f"{value:.9g}" for value in curve] for curve in curves]
     return _written(header, itertools.zip_longest(*columns, fillvalue=""))
 
 
