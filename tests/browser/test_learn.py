@@ -1,4 +1,4 @@
-"""Learning in a real browser: what moves is the solver's, what lessons reveal is the solver's, nothing is fetched."""
+"""Learning in a real browser: what moves and what lessons reveal is the solver's, and nothing is fetched."""
 
 import re
 
