@@ -1,4 +1,4 @@
-"""Learning in a real browser: films and lessons are the solver's, and nothing is fetched."""
+"""Learning in a real browser: what moves and what lessons reveal is the solver's, and nothing is fetched."""
 
 import re
 
