@@ -244,7 +244,7 @@ def _figure_css(height):
 
 
 TALL = _figure_css("max(300px, calc(53vh - 150px))")
-LOW = _figure_css("max(250px, calc(47vh - 140px))")
+LOW = _figure_css("max(250px, calc(47vh - 165px))")
 MEDIUM = _figure_css("300px")
 HIGH = _figure_css("440px")
 SHORT = _figure_css("180px")
