@@ -61,13 +61,8 @@ class Compare(Viewer):
         self.figure_2 = pmui.Button(
             label="Paper's Figure 2", icon="show_chart", on_click=self._show_figure_2, **BUTTON
         )
-        self.base = pn.widgets.Select(
-            label="Differences from",
-            options={HAND_NAME: HAND},
-            width=BASE_WIDTH,
-            margin=(0, 12, 4, 12),
-            stylesheets=[style.SELECT_CSS],
-        )
+        self.base = None
+        self._base_place = pmui.Row(margin=0)
         self.bands = pn.widgets.CheckBoxGroup(
             label="Bands in the table, Hz",
             options=list(tig.BAND_LABELS),
@@ -79,7 +74,6 @@ class Compare(Viewer):
         )
         self.differences = BaseDifferenceFigure()
         self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[style.TABLE_CSS], margin=0)
-        self.base.param.watch(self._choose_base, "value")
         outcome.param.watch(self._show, "picture")
         self._show_later = Later(self._show)
         self.bands.param.watch(self._show_later, "value")
@@ -114,7 +108,20 @@ class Compare(Viewer):
         if not self._in_sight:
             return
         options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
-        self.base.param.update(options=options, value=self._pins.base or HAND)
+        value = self._pins.base or HAND
+        if self.base is not None and (self.base.options, self.base.value) == (options, value):
+            return
+        # made anew: the browser's select fails when its options change before its tab was ever seen
+        self.base = pn.widgets.Select(
+            label="Differences from",
+            options=options,
+            value=value,
+            width=BASE_WIDTH,
+            margin=(0, 12, 4, 12),
+            stylesheets=[style.SELECT_CSS],
+        )
+        self.base.param.watch(self._choose_base, "value")
+        self._base_place.objects = [self.base]
 
     def _choose_base(self, event):
         self._pins.choose_base(event.new or None)
@@ -173,7 +180,7 @@ class Compare(Viewer):
             pmui.Row(
                 caption("Difference in insertion gain", ""),
                 pn.HSpacer(),
-                self.base,
+                self._base_place,
                 sizing_mode="stretch_width",
             ),
             bokeh_pane(self.differences.model),

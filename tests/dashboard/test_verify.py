@@ -110,7 +110,7 @@ def test_the_checks_follow_the_choice_of_sum_and_reference(outcome, picture):
     presentation.param.update(reference="rigid", summation="coherent")
     expected = tig.solve(tig.PRESETS["booted-sleeper"], "exact", reference="rigid", summation="coherent")
     np.testing.assert_allclose(view.comparison.bands.data["exact"], expected.insertion_gain, atol=1e-9)
-    assert "coherent force / rigid" in view.comparison.model.yaxis.axis_label
+    assert "coherent / rigid" in view.comparison.model.yaxis.axis_label
 
 
 def test_small_differences_are_told_as_they_are():

@@ -1,0 +1,196 @@
+"""Comparing in the served dashboard: pins, names, differences, undo, Table 1 in one click, looks."""
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+import trackig_core as tig
+from tests.browser.test_dashboard import (
+    MARKUP,
+    OPENING,
+    box,
+    choose,
+    column,
+    drag,
+    slider,
+    wait_for_levels,
+)
+
+pytestmark = pytest.mark.browser
+
+
+def tab(page, name):
+    page.get_by_role("tab", name=name).click()
+
+
+def type_into(page, label, number):
+    field = box(page, label)
+    field.fill(number)
+    field.press("Enter")
+
+
+def pin(page, name=""):
+    page.get_by_role("textbox", name="Name of the design to be pinned").fill(name)
+    page.get_by_role("button", name="Pin this design").click()
+
+
+def wait_until_listed(page, figure, names):
+    page.wait_for_function(
+        """([figure, names]) => {
+            const legend = Bokeh.documents[0].get_model_by_name(figure).center
+                .filter(each => each.type == "Legend")[0]
+            return JSON.stringify(legend.items.map(item => item.label.value)) == JSON.stringify(names)
+        }""",
+        arg=[figure, names],
+    )
+
+
+def test_two_designs_are_pinned_renamed_hidden_and_compared(dashboard):
+    pin(dashboard, "soft")
+    wait_until_listed(dashboard, "insertion_gain_figure", ["this design", "soft"])
+    type_into(dashboard, "Boot stiffness, kN/mm", "60")
+    stiff = tig.solve(OPENING.replace(boot_stiffness=60e6)).insertion_gain
+    wait_for_levels(dashboard, stiff)
+    pin(dashboard, MARKUP)
+    brief = f"{MARKUP[:23]}…"
+    wait_until_listed(dashboard, "insertion_gain_figure", ["this design", "as in Table 1", "soft", brief])
+    wait_until_listed(dashboard, "force_figure", ["all supports", "support under the wheel", "soft", brief])
+    np.testing.assert_allclose(column(dashboard, "pins", "pin_1"), stiff, atol=1e-9)
+
+    tab(dashboard, "Compare")
+    expect(dashboard.get_by_role("columnheader", name=MARKUP)).to_be_visible()
+    choose(dashboard, "Differences from", "soft")
+    soft = tig.solve(OPENING).insertion_gain
+    dashboard.wait_for_function(
+        """level => Math.abs(
+            Bokeh.documents[0].get_model_by_name("pin_differences").data.pin_0[11] - level) < 1e-6""",
+        arg=float((stiff - soft)[11]),
+    )
+    names = dashboard.get_by_role("textbox", name="Name of the design", exact=True)
+    names.nth(1).fill("stiff")
+    names.nth(1).press("Enter")
+    wait_until_listed(dashboard, "pin_difference_figure", ["this design", "stiff"])
+    expect(dashboard.get_by_role("columnheader", name="stiff")).to_be_visible()
+    dashboard.get_by_role("checkbox", name="Show").nth(1).click()
+    wait_until_listed(dashboard, "insertion_gain_figure", ["this design", "as in Table 1", "soft"])
+    expect(dashboard.get_by_role("columnheader", name="stiff")).to_have_count(0)
+    dashboard.get_by_role("button", name="Use").first.click()
+    wait_for_levels(dashboard, soft)
+
+
+def test_names_are_told_as_text_when_the_pointer_rests_on_a_band(dashboard):
+    pin(dashboard, MARKUP)
+    wait_until_listed(dashboard, "insertion_gain_figure", ["this design", f"{MARKUP[:23]}…"])
+    place = """() => {
+        const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("insertion_gain_figure"))
+        const box = view.canvas_view.el.getBoundingClientRect()
+        return [box.x + view.frame.x_scale.compute(100), box.y + view.frame.bbox.top + 20]
+    }"""
+    told = dashboard.get_by_text(MARKUP)
+    for _ in range(100):
+        x, y = dashboard.evaluate(place)
+        dashboard.mouse.move(x, y + 5)
+        dashboard.mouse.move(x, y)
+        if told.last.is_visible():
+            break
+        dashboard.wait_for_timeout(100)
+    expect(told.last).to_be_visible()
+
+
+def test_a_drag_is_undone_by_one_key_press_and_redone_by_another(dashboard):
+    drag(dashboard, "Block mass, kg", 20)
+    dashboard.mouse.up()
+    expect(box(dashboard, "Block mass, kg")).not_to_have_value("45")
+    handle = slider(dashboard, "Block mass, kg")
+    handle.focus()
+    dashboard.wait_for_function("() => Bokeh.documents[0].is_idle")
+    expect(dashboard.get_by_text("paper's run", exact=True)).to_be_visible()
+    mass = box(dashboard, "Block mass, kg").input_value()
+    dashboard.keyboard.press("Control+z")
+    wait_for_levels(dashboard, tig.solve(OPENING).insertion_gain)
+    expect(box(dashboard, "Block mass, kg")).to_have_value("45")
+    expect(dashboard.get_by_role("button", name="Undo (Ctrl+Z)")).to_be_disabled()
+    dashboard.keyboard.press("Control+Shift+Z")
+    expect(box(dashboard, "Block mass, kg")).to_have_value(mass)
+
+
+def test_undo_keys_are_left_to_a_box_in_which_somebody_types(dashboard):
+    type_into(dashboard, "Block mass, kg", "100")
+    wait_for_levels(dashboard, tig.solve(OPENING.replace(block_mass=100.0)).insertion_gain)
+    name = dashboard.get_by_role("textbox", name="Name of the design to be pinned")
+    name.focus()
+    dashboard.keyboard.type("soft")
+    dashboard.keyboard.press("Control+z")
+    expect(name).not_to_have_value("soft")
+    dashboard.wait_for_timeout(500)
+    expect(box(dashboard, "Block mass, kg")).to_have_value("100")
+    dashboard.get_by_role("button", name="Undo (Ctrl+Z)").click()
+    expect(box(dashboard, "Block mass, kg")).to_have_value("45")
+    wait_for_levels(dashboard, tig.solve(OPENING).insertion_gain)
+
+
+def test_one_click_draws_the_papers_figure_2(dashboard):
+    tab(dashboard, "Compare")
+    dashboard.get_by_role("button", name="Paper's Figure 2").click()
+    names = ["Slab track", "Booted sleeper", "Booted block, low mass", "Booted block, high mass"]
+    wait_until_listed(dashboard, "insertion_gain_figure", names)
+    for place, design in enumerate(tig.PRESETS.values()):
+        expected = tig.solve(design).insertion_gain
+        np.testing.assert_allclose(column(dashboard, "pins", f"pin_{place}"), expected, atol=1e-9)
+    expect(dashboard.get_by_role("tab", name="Explore")).to_have_attribute("aria-selected", "true")
+    dashboard.get_by_role("button", name="Show this design").click()
+    wait_until_listed(dashboard, "insertion_gain_figure", ["this design", *names])
+
+
+def test_the_drawing_follows_a_drag(dashboard):
+    tab(dashboard, "Track")
+    expect(dashboard.get_by_text("45 kg", exact=True)).to_be_visible()
+    drag(dashboard, "Block mass, kg", 20)
+    expect(dashboard.get_by_text("45 kg", exact=True)).to_have_count(0)
+    dashboard.mouse.up()
+    mass = slider(dashboard, "Block mass, kg").get_attribute("aria-valuetext")
+    expect(dashboard.get_by_text(f"{mass} kg", exact=True)).to_be_visible()
+
+
+def test_the_theme_survives_a_reload(dashboard):
+    dark = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').background_fill_color"
+    dashboard.get_by_label("Toggle theme").click()
+    dashboard.wait_for_function(f"() => ({dark})() == '#121212'")
+    dashboard.reload()
+    dashboard.wait_for_function(
+        f"() => window.Bokeh?.documents?.[0]?.get_model_by_name('force_figure') && ({dark})() == '#121212'"
+    )
+
+
+@pytest.mark.parametrize(("width", "least"), [(1024, 14), (1440, 16), (1920, 16)])
+def test_axes_are_legible_in_both_themes(open_dashboard, width, least):
+    page = open_dashboard(width=width)
+    sizes = """() => ["insertion_gain_figure", "force_figure"]
+        .map(name => Bokeh.documents[0].get_model_by_name(name))
+        .flatMap(figure => [...figure.left, ...figure.below])
+        .flatMap(axis => [axis.major_label_text_font_size, axis.axis_label_text_font_size])"""
+    for _ in range(2):
+        page.wait_for_function(
+            f"least => ({sizes})().every(size => size.endsWith('px') && parseFloat(size) >= least)", arg=least
+        )
+        page.get_by_label("Toggle theme").click()
+        page.wait_for_timeout(500)
+
+
+def test_figures_and_buttons_have_names(dashboard):
+    for name in ("Insertion gain per one-third-octave band", "Force into the ground over time"):
+        expect(dashboard.get_by_role("figure", name=name)).to_be_visible()
+    dashboard.get_by_role("button", name="Advanced").click()
+    expect(slider(dashboard, "Contact stiffness, kN/mm")).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [1024, 1440])
+def test_no_tab_is_wider_than_the_window(open_dashboard, width):
+    page = open_dashboard(width=width, height=768)
+    tab(page, "Compare")
+    page.get_by_role("button", name="Pin Table 1").click()
+    expect(page.get_by_role("columnheader", name="Booted sleeper")).to_be_visible()
+    for name in ("Compare", "Track", "Explore"):
+        tab(page, name)
+        page.wait_for_timeout(300)
+        assert page.evaluate("() => document.scrollingElement.scrollWidth") <= width
