@@ -86,7 +86,6 @@ class Compare(Viewer):
     def look(self, in_sight):
         """Note whether the tab is in sight; if so, show what has changed meanwhile."""
         self._in_sight = in_sight
-        self._offer_bases()
         self._show_later()
 
     def _pin_table_1(self, _):
@@ -104,9 +103,6 @@ class Compare(Viewer):
             self._on_figure_2()
 
     def _offer_bases(self, *_):
-        # a select that was never drawn cannot take new options
-        if not self._in_sight:
-            return
         options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
         value = self._pins.base or HAND
         if self.base is not None and (self.base.options, self.base.value) == (options, value):
