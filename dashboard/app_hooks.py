@@ -3,16 +3,40 @@
 The one rule: no session compiles anything; at a first start the page is there meanwhile, and says so.
 """
 
+import logging
+
+from tornado.ioloop import IOLoop
+from tornado.websocket import WebSocketClosedError
+
 import trackig_core as tig
 from dashboard.runner import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.state import OPENING_PRESET
 
+log = logging.getLogger(__name__)
+
 
 def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     """Have the kernels compiled while pages are served, then the presets solved, the opening one first."""
+    IOLoop.current().asyncio_loop.set_exception_handler(heed)
     compiled()
     for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
         shared_store().request((tig.PRESETS[key], AT_REST))
+
+
+def heed(loop, context):
+    """Log an exception that nobody caught; a reader who left while a picture was on its way is none.
+
+    Parameters
+    ----------
+    loop : asyncio.AbstractEventLoop
+        The server's loop.
+    context : dict
+        What it knows of the exception.
+    """
+    if isinstance(context.get("exception"), WebSocketClosedError):
+        log.debug("A browser left before its message was sent")
+    else:
+        loop.default_exception_handler(context)
 
 
 def on_server_unloaded(server_context):  # noqa: ARG001
