@@ -638,10 +638,23 @@ TIME_HOVER = f"""
 """
 
 
+LABEL_AS_FIT = f"""
+    const fit = Math.ceil({style.BAND_LABEL_WIDTH} * centres.length / cb_obj.inner_width)
+    const ticks = centres.filter((_, band) => band % Math.max(every, fit) == 0)
+    if (ticks.length != ticker.ticks.length) {{ ticker.ticks = ticks }}
+"""
+
+
 def show_bands(plot, every=1):
-    """Give a figure's frequency axis all bands, edge to edge; label every band, or one in some."""
+    """Give a figure's frequency axis all bands, edge to edge; label every band, or one in some.
+
+    Where labels would touch each other, as on a small screen, fewer bands are labelled.
+    """
     plot.x_range = Range1d(*BAND_AXIS, bounds=BAND_AXIS)
-    plot.xaxis.ticker = FixedTicker(ticks=list(tig.BAND_CENTRES[::every]), minor_ticks=[])
+    ticker = FixedTicker(ticks=list(tig.BAND_CENTRES[::every]), minor_ticks=[])
+    plot.xaxis.ticker = ticker
+    everything = {"ticker": ticker, "centres": list(tig.BAND_CENTRES), "every": every}
+    plot.js_on_change("inner_width", CustomJS(args=everything, code=LABEL_AS_FIT))
     plot.xaxis.major_label_overrides = dict(zip(tig.BAND_CENTRES, tig.BAND_LABELS, strict=True))
     plot.xgrid.visible = False
 

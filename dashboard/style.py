@@ -131,6 +131,9 @@ def slope_text(slope):
     return f"{slope:+.0f} dB per octave".replace("-", "−") if round(slope) else "level"
 
 
+BAND_LABEL_WIDTH = 40
+"""Room that the label of a band needs on the frequency axis [px]."""
+
 LEAST_DIFFERENCE = 1e-6
 """Differences of levels below this are not told apart [dB]."""
 

@@ -39,6 +39,9 @@ MOST_LINES = 1000
 
 _NUMBER = re.compile(r"[+-]?(\d{1,20}(\.\d{0,20})?|\.\d{1,20})([eE][+-]?\d{1,3})?", re.ASCII)
 
+_SPACED = re.compile("[ ]*[0-9.,]{0,19}[0-9][ ]+[-+\N{MINUS SIGN}]?[0-9.,]{1,20}[ ]*")
+"""Two numbers with nothing but spaces between them, as copied from a letter or a PDF."""
+
 
 class BandTableError(ValueError):
     """A table of levels per band cannot be used.
@@ -246,7 +249,7 @@ def _read(data, quantity):
     if len(lines) > MOST_LINES:
         raise quantity.error(f"{len(lines)} lines: give at most {MOST_LINES}")
     full = [(number, line) for number, line in enumerate(lines, start=1) if not _is_empty(line)]
-    separator = next((each for each in "\t;" if full and each in full[0][1]), ",")
+    separator = _separator(full[0][1]) if full else ","
     cells = [(number, _cells(line, separator)) for number, line in full]
     if cells and _parsed(cells[0][1][0], separator) is None:
         _check_header(*cells.pop(0), quantity)
@@ -264,6 +267,13 @@ def _read(data, quantity):
         if level:
             rows.append((number, frequency, *level))
     return rows
+
+
+def _separator(line):
+    """Return what separates the columns of a table that begins with a line."""
+    if _SPACED.fullmatch(line):
+        return " "
+    return next((each for each in "\t;" if each in line), ",")
 
 
 def _decoded(data, error):
@@ -290,6 +300,8 @@ def _is_empty(line):
 
 def _cells(line, separator):
     """Return the cells of a line without empty ones at its end; the first stays."""
+    if separator == " ":
+        return line.split()
     cells = [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator))]
     while len(cells) > 1 and not cells[-1]:
         cells.pop()

@@ -67,6 +67,10 @@ class BandGrid(Scripted):
         self._send_msg({"kind": "again"})
 
 
+EXAMPLES = {"specification": "31.5\t-6\n40\t-8", "source": "31.5\t62\n40\t60"}
+"""Rows that may be pasted, by what they are pasted for."""
+
+
 class BandEditor(Viewer):
     """A table of levels per band, and the ways to fill it.
 
@@ -93,7 +97,7 @@ class BandEditor(Viewer):
         self.message = pn.pane.HTML("", stylesheets=[style.MESSAGE_CSS], margin=(0, 12, 4, 12))
         self.pasted = pmui.TextAreaInput(
             label="Paste: Hz and dB",
-            placeholder="31.5\t-6\n40\t-8",
+            placeholder=EXAMPLES[name],
             rows=8,
             max_length=MOST_BYTES,
             sizing_mode="stretch_width",

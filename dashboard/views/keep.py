@@ -158,7 +158,10 @@ PLOTS = (
 )
 """Name of each plot's figure, what it is called, and how its file is named."""
 
-LINK_WORDS = "the address bar always holds the design, the pinned designs and the view; a link reopens them"
+LINK_WORDS = (
+    "the address bar holds the design, the pinned designs and the view; "
+    "specification and source travel in a study"
+)
 STUDY_WORDS = "one file that people can read: designs, pinned designs, specification, source"
 CURVE_WORDS = "of this design and of the pinned designs that are shown"
 PLOT_WORDS = "as they are on the screen"

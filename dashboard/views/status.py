@@ -101,7 +101,7 @@ def status_words(outcome):
     if picture.solution.fidelity == "live":
         words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
     elif outcome.from_cache:
-        words = f"Paper's run, from cache (solved before in {took})"
+        words = "Paper's run, solved before"
     else:
         words = f"Paper's run, solved in {took}"
     return " · ".join((words, *picture.solution.notes))

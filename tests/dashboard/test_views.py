@@ -43,7 +43,7 @@ def test_the_status_follows_a_solve(outcome, picture):
     outcome.param.update(picture=shown, busy=False)
     assert f"Paper&#x27;s run, solved in {duration_text(shown.seconds)}" in status.text.object
     outcome.from_cache = True
-    assert "from cache" in status.text.object
+    assert "solved before" in status.text.object
 
 
 def test_the_status_and_a_chip_say_which_fidelity_is_on_screen(explore, outcome, fake_picture, picture):
