@@ -15,10 +15,14 @@ from bokeh.document import Document
 from bokeh.protocol import Protocol
 
 import trackig_core as tig
-from dashboard.runner import MOVING, take_picture
+from dashboard.curves import PinnedCurves
+from dashboard.pinned import PinnedPictures
+from dashboard.pins import Pins
+from dashboard.runner import MOVING, shared_store, take_picture
 from dashboard.state import Outcome, Presentation
 from dashboard.views.explore import Explore
 from dashboard.views.status import Status
+from dashboard.workshop import Workshop
 from tests.browser.conftest import address, chromium, open_dashboard  # noqa: F401  (fixtures)
 
 OPENING = tig.PRESETS["booted-block-low-mass"]
@@ -48,8 +52,11 @@ def picture_of(design, fidelity):
 
 def test_a_frame_on_the_server(benchmark, tell):
     """From a new picture to the message for the browser: figures patched, words changed, serialised."""
-    outcome = Outcome()
-    views = [Status(outcome, None, None), Explore(outcome, Presentation())]
+    outcome, presentation, pins = Outcome(), Presentation(), Pins()
+    pinned = PinnedPictures(pins, shared_store())
+    curves = PinnedCurves(pins, pinned, presentation)
+    workshop = Workshop(outcome, presentation, pins, pinned, curves)
+    views = [Status(outcome, None, None), Explore(outcome, presentation, pins, curves, workshop)]
     document = Document()
     pn.Column(*views).server_doc(document, location=False)
     pictures = [picture_of(OPENING.replace(boot_stiffness=20e6 + 1e5 * k), MOVING) for k in range(20)]
