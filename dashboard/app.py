@@ -15,7 +15,7 @@ from dashboard.browser import Browser
 from dashboard.checker import Checker
 from dashboard.controls import Controls
 from dashboard.curves import PinnedCurves
-from dashboard.exchange import Exchange
+from dashboard.exchange import NOT_HEEDED, Exchange
 from dashboard.exchange import tell as tell_user
 from dashboard.keeping import Keeping
 from dashboard.pinned import PinnedPictures
@@ -163,5 +163,4 @@ def page(sidebar, status, main, browser, exchange):
 def tell(error):
     """Log an exception that escaped a callback, and tell the user so in plain words."""
     log.error("A callback failed", exc_info=error)
-    if pn.state.notifications is not None:
-        pn.state.notifications.error("Something went wrong; the server's log has the details.", duration=8000)
+    tell_user("error", NOT_HEEDED)

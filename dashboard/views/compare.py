@@ -10,12 +10,13 @@ from panel.viewable import Viewer
 import trackig_core as tig
 from dashboard import style
 from dashboard.compare_figures import BaseDifferenceFigure
+from dashboard.exchange import tell
 from dashboard.later import Later
 from dashboard.pins import PinError
 from dashboard.state import display_values
 from dashboard.views.comparison_table import Column, table_html
 from dashboard.views.explore import PAPER, bokeh_pane, caption
-from dashboard.views.pin_list import PinList, tell
+from dashboard.views.pin_list import PinList
 
 FEW_BANDS = ("16", "31.5", "63", "125", "250")
 """Bands that are listed at first: an octave apart [Hz]."""
@@ -92,13 +93,13 @@ class Compare(Viewer):
         try:
             self._pins.add_table_1()
         except PinError as problem:
-            tell(problem)
+            tell("warning", str(problem))
 
     def _show_figure_2(self, _):
         try:
             self._pins.show_table_1()
         except PinError as problem:
-            tell(problem)
+            tell("warning", str(problem))
         else:
             self._on_figure_2()
 

@@ -10,10 +10,10 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import style
+from dashboard.exchange import tell
 from dashboard.history import History
 from dashboard.pins import PinError
 from dashboard.state import INPUTS, PRESET_LABELS
-from dashboard.views.pin_list import tell
 from trackig_core.names import LONGEST_NAME
 
 
@@ -90,7 +90,7 @@ class DesignBar(Viewer):
         try:
             pin = self._pins.add(inputs.to_values(), self.name_box.value or usual)
         except PinError as problem:
-            tell(problem)
+            tell("warning", str(problem))
             return
         self.name_box.value = ""
         if pn.state.notifications is not None:

@@ -8,17 +8,12 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import style
+from dashboard.exchange import tell
 from dashboard.pins import PinError
 from dashboard.views.comparison_table import swatch_svg
 from trackig_core.names import LONGEST_NAME
 
 COLOURS = {name: number for number, name in enumerate(style.DESIGN_COLOUR_NAMES)}
-
-
-def tell(problem):
-    """Tell the user what cannot be done, and what can."""
-    if pn.state.notifications is not None:
-        pn.state.notifications.warning(str(problem), duration=6000)
 
 
 class PinRow(Viewer):
@@ -81,7 +76,7 @@ class PinRow(Viewer):
             self._pins.rename(self._key, event.new)
         except PinError as problem:
             self.name_box.param.update(error_state=True, helper_text="not taken")
-            tell(problem)
+            tell("warning", str(problem))
 
     def _recolour(self, event):
         if event.new != self._pins[self._key].colour:
