@@ -117,7 +117,7 @@ def tabs(outcome, keeping, views):
         keeping.tab = names[shown.active]
         outcome.checking = isinstance(active, Verify)
         for view in views:
-            if isinstance(view, (Compare, Learn, LevelView, SpecificationView, Track)):
+            if isinstance(view, (Explore, Compare, Learn, LevelView, SpecificationView, Track)):
                 view.look(view is active)
 
     def open_tab(*_):

@@ -3,6 +3,7 @@
 The one rule: no session compiles anything; at a first start the page is there meanwhile, and says so.
 """
 
+import gc
 import logging
 
 from tornado.ioloop import IOLoop
@@ -18,6 +19,8 @@ log = logging.getLogger(__name__)
 def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     """Have the kernels compiled while pages are served, then the presets solved, the opening one first."""
     IOLoop.current().asyncio_loop.set_exception_handler(heed)
+    # what is imported stays: looking through it for garbage would stop every session for 0.1 s now and then
+    gc.freeze()
     compiled()
     for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
         shared_store().request((tig.PRESETS[key], AT_REST))

@@ -4,8 +4,7 @@ The one rule: the base is the zero line, and every design has the colour and das
 """
 
 import numpy as np
-from bokeh.core.properties import value
-from bokeh.models import ColumnDataSource, CustomJSHover, HoverTool, LegendItem
+from bokeh.models import ColumnDataSource, CustomJSHover, HoverTool
 
 from dashboard import style
 from dashboard.figures import (
@@ -17,6 +16,7 @@ from dashboard.figures import (
     AxisEnds,
     PinnedLines,
     blank_figure,
+    legend_entry,
     list_in,
     new_legend,
     pin_columns,
@@ -58,8 +58,6 @@ class BaseDifferenceFigure:
         show_bands(self.model)
         self.model.add_layout(zero_line())
         self._legend = new_legend(self.model, "bottom_left")
-        names = [f"pin_{place}" for place in range(MOST_CURVES)]
-        self._pinned = PinnedLines(self.model, [self.differences] * MOST_CURVES, "centre", names)
         self._hand = self.model.line(
             x="centre",
             y=f"pin_{HAND}",
@@ -67,7 +65,9 @@ class BaseDifferenceFigure:
             line_color=style.THIS_DESIGN,
             line_width=style.LINE_WIDTH,
         )
-        self._entry = LegendItem(label=value("this design"), renderers=[self._hand])
+        names = [f"pin_{place}" for place in range(MOST_CURVES)]
+        self._pinned = PinnedLines(self.model, self._hand, [self.differences] * MOST_CURVES, "centre", names)
+        self._entry = legend_entry(self.model, "this design", self._hand)
         told = CustomJSHover(args={"pins": self.differences}, code=PIN_HOVER)
         self._hover = HoverTool(
             renderers=[self._hand], mode="vline", tooltips=ALONE_TOOLTIPS, formatters={"@centre": told}
@@ -94,11 +94,11 @@ class BaseDifferenceFigure:
         self._pinned.show(differences)
         self._hand.visible = hand is not None
         own = [] if hand is None else [self._entry]
-        list_in(self._legend, own + self._pinned.shown_entries)
+        list_in(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
         tooltips = [] if hand is None else [("this design", f"@centre{{{HAND}}}")]
         tooltips += [(curve.name, f"@centre{{{place}}}") for place, curve in enumerate(differences)]
         self._hover.update(
-            renderers=[self._pinned.lines[0] if hand is None else self._hand],
+            renderers=self._pinned.lines[:1] if hand is None else [self._hand],
             tooltips=ALONE_TOOLTIPS + tooltips,
         )
         drawn = [curve.drawn for curve in differences] + ([] if hand is None else [hand])

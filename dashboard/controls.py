@@ -8,6 +8,7 @@ The one rule: a widget changes an input and nothing else; no widget watches anot
 """
 
 import math
+from typing import ClassVar
 
 import panel as pn
 import panel_material_ui as pmui
@@ -30,9 +31,9 @@ BOX_WIDTH = 92
 
 
 class QuickSlider(pmui.FloatSlider):
-    """A slider that tells its moves after 10 ms, not Panel's 50 ms; the runner drops what is too many."""
+    """A slider that tells its moves at once, not after Panel's 50 ms; the runner drops what is too many."""
 
-    _debounce = 10
+    _priority_changes: ClassVar[list[str]] = ["value"]
 
 
 class QuantityControl(Viewer):

@@ -20,15 +20,20 @@ from bokeh.models import (
     CustomJSHover,
     CustomJSTickFormatter,
     FixedTicker,
+    GlyphRenderer,
     HoverTool,
     Label,
     Legend,
     LegendItem,
+    Line,
     PanTool,
+    Quad,
     Range1d,
     ResetTool,
     SaveTool,
+    Segment,
     Span,
+    Text,
     WheelZoomTool,
 )
 from bokeh.plotting import figure
@@ -221,20 +226,60 @@ NO_LABEL = "\N{NO-BREAK SPACE}"
 """Keeps a label's row free, so that the frame stays put."""
 
 
-class PinnedLines:
-    """Lines for as many pinned designs as there can be, each with its entry in the legend."""
+def legend_entry(plot, words, *renderers):
+    """Return what a legend says of curves.
 
-    def __init__(self, plot, sources, x, columns):
-        self.lines = [
-            plot.line(
-                x=x, y=column, source=source, line_width=style.PINNED_LINE_WIDTH, line_alpha=1, visible=False
-            )
-            for source, column in zip(sources, columns, strict=True)
-        ]
-        self.entries = [LegendItem(label=value(NO_LABEL), renderers=[line]) for line in self.lines]
+    A legend is made anew whenever anything changes that it refers to, curves' data included; at each frame
+    of a drag that would cost as much as drawing the figure. So it refers to twins of the curves: the same
+    glyphs, and so the same colours and dashes, of a source that stays as it is.
+    """
+    columns = {column: [math.nan] for each in renderers for column in each.data_source.column_names}
+    still = ColumnDataSource(data=columns)
+    twins = [plot.add_glyph(still, each.glyph) for each in renderers]
+    return LegendItem(label=value(words), renderers=twins)
+
+
+class PinnedLines:
+    """Lines for pinned designs, each with its entry in the legend; they are made when they are first needed.
+
+    A figure pays at every frame for each line that it has, seen or not.
+
+    Parameters
+    ----------
+    plot : bokeh.plotting.figure
+        Where they are drawn.
+    front : bokeh.models.GlyphRenderer
+        What they are drawn behind.
+    sources : sequence of bokeh.models.ColumnDataSource
+        Where each line finds its curve.
+    x : str
+        Column of the horizontal axis.
+    columns : sequence of str
+        Each line's column of the vertical axis.
+    """
+
+    def __init__(self, plot, front, sources, x, columns):
+        self.lines, self.entries = [], []
+        self._plot, self._front, self._x = plot, front, x
+        self._unmade = list(zip(sources, columns, strict=True))
+
+    def _make(self, count):
+        made, self._unmade = self._unmade[:count], self._unmade[count:]
+        lines = [GlyphRenderer(data_source=source, glyph=self._glyph(column)) for source, column in made]
+        renderers = self._plot.renderers
+        behind = renderers.index(self._front)
+        renderers[behind:behind] = lines
+        self.lines += lines
+        self.entries += [LegendItem(label=value(NO_LABEL), renderers=[line]) for line in lines]
+
+    def _glyph(self, column):
+        return Line(x=self._x, y=column, line_width=style.PINNED_LINE_WIDTH, line_alpha=1)
 
     def show(self, curves):
         """Give as many lines as there are curves their names, colours and dashes, and hide the rest."""
+        missing = len(curves) - len(self.lines)
+        if missing > 0:
+            self._make(missing)
         for line, entry, curve in zip(self.lines, self.entries, curves, strict=False):
             line.glyph.update(line_color=curve.colour, line_dash=list(curve.dash))
             entry.label = value(style.name_text(curve.name, style.LEGEND_NAME))
@@ -264,10 +309,22 @@ def new_legend(plot, location):
     return legend
 
 
-def list_in(legend, entries):
-    """List in a legend what is drawn, in two columns when one would be long."""
+def list_in(legend, entries, shown):
+    """List in a legend what is drawn, in two columns when one would be long.
+
+    Parameters
+    ----------
+    legend : bokeh.models.Legend
+        The legend.
+    entries, shown : list of bokeh.models.LegendItem
+        All that there are, in order, and those of what is drawn. The others are hidden, not taken out: at
+        every change of a list of models Bokeh walks through the whole document.
+    """
     if entries != legend.items:
-        legend.update(items=entries, ncols=1 if len(entries) <= style.LEGEND_ROWS else 2)
+        legend.items = entries
+    for entry in entries:
+        entry.visible = entry in shown
+    legend.update(ncols=1 if len(shown) <= style.LEGEND_ROWS else 2, visible=bool(shown))
 
 
 class InsertionGainFigure:
@@ -292,7 +349,7 @@ class InsertionGainFigure:
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
         self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
-        self._curves = ()
+        self._curves, self._limited = (), False
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
             name="insertion_gain_figure",
@@ -322,9 +379,6 @@ class InsertionGainFigure:
             fill_alpha=style.FILL_ALPHA,
             line_color=None,
         )
-        self._draw_limit()
-        names = [f"pin_{place}" for place in range(MOST_CURVES)]
-        self._pinned = PinnedLines(plot, [self.pins] * MOST_CURVES, "centre", names)
         shared = {"source": self.bands, "x": "centre"}
         self._ghost = plot.line(
             y="preset",
@@ -333,6 +387,8 @@ class InsertionGainFigure:
             line_dash="dashed",
             **shared,
         )
+        names = [f"pin_{place}" for place in range(MOST_CURVES)]
+        self._pinned = PinnedLines(plot, self._ghost, [self.pins] * MOST_CURVES, "centre", names)
         self._line = plot.line(y="level", line_color=style.THIS_DESIGN, line_width=style.LINE_WIDTH, **shared)
         self._dots = plot.scatter(y="level", color=style.THIS_DESIGN, size=style.DOT_SIZE, **shared)
         pinned = CustomJSHover(args={"pins": self.pins}, code=PIN_HOVER)
@@ -341,26 +397,21 @@ class InsertionGainFigure:
         )
         plot.add_tools(self._hover)
         self._entries = {
-            words: LegendItem(label=value(words), renderers=renderers)
-            for words, renderers in (
-                ("this design", [self._line, self._dots]),
-                ("as in Table 1", [self._ghost]),
-                ("required maximum", [self._limit_line]),
-                ("exceeds it", [self._failing]),
-            )
+            "this design": legend_entry(plot, "this design", self._line, self._dots),
+            "as in Table 1": legend_entry(plot, "as in Table 1", self._ghost),
         }
 
     def _draw_limit(self):
+        """Draw the limit and what exceeds it, behind all curves; without a limit there is nothing to draw."""
         plot, colour = self.model, style.SPECIFICATION
-        steps = {"source": self.limit, "line_color": colour, "line_width": style.LIMIT_LINE_WIDTH}
-        self._limit_line = plot.segment(x0="left", x1="right", y0="limit", y1="limit", **steps)
-        plot.segment(x0="left", x1="left", y0="before", y1="limit", **steps)
-        self._failing = plot.quad(
+        width = style.LIMIT_LINE_WIDTH
+        required = Segment(x0="left", x1="right", y0="limit", y1="limit", line_color=colour, line_width=width)
+        riser = Segment(x0="left", x1="left", y0="before", y1="limit", line_color=colour, line_width=width)
+        failing = Quad(
             left="left",
             right="right",
             bottom="limit",
             top="failing",
-            source=self.limit,
             fill_color=None,
             line_color=colour,
             line_width=style.THIN_LINE_WIDTH,
@@ -369,10 +420,9 @@ class InsertionGainFigure:
             hatch_weight=2,
             hatch_scale=10,
         )
-        plot.text(
+        cross = Text(
             x="centre",
             y="failing",
-            source=self.limit,
             text=value("✗"),
             text_align="center",
             text_baseline="bottom",
@@ -380,6 +430,13 @@ class InsertionGainFigure:
             text_font_size=style.FAILING_SIZE,
             y_offset=-3,
         )
+        parts = [
+            GlyphRenderer(data_source=self.limit, glyph=glyph) for glyph in (required, riser, failing, cross)
+        ]
+        behind = plot.renderers.index(self._fill) + 1
+        plot.renderers[behind:behind] = parts
+        self._entries["required maximum"] = legend_entry(plot, "required maximum", parts[0])
+        self._entries["exceeds it"] = legend_entry(plot, "exceeds it", parts[2])
 
     def name_axis(self, words):
         """Say on the axis which insertion gain is drawn."""
@@ -404,9 +461,8 @@ class InsertionGainFigure:
             Whether the curves stand alone: then of the design at hand nothing is drawn.
         """
         preset = NO_LEVELS if preset_levels is None or alone else preset_levels
-        limit = NO_LEVELS if limit is None else limit
         self.bands.data = _band_columns(levels, preset)
-        self.limit.data = _limit_columns(limit, NO_LEVELS if alone else levels)
+        self._show_limit(limit, NO_LEVELS if alone else levels)
         for part in (self._fill, self._line, self._dots):
             part.visible = not alone
         self._loaded_track.show(None if alone else natural.loaded_track)
@@ -417,12 +473,20 @@ class InsertionGainFigure:
         seen = [
             NO_LEVELS if alone else levels,
             preset,
-            limit,
+            self.limit.data["limit"],
             *(curve.drawn for curve in curves),
             LEAST_LEVELS,
         ]
         every = np.concatenate(seen)
         self._levels.show(np.nanmin(every) - LEVEL_ROOM, np.nanmax(every) + LEVEL_ROOM, LEVEL_STEP)
+
+    def _show_limit(self, limit, levels):
+        if limit is None and not self._limited:
+            return
+        if limit is not None and "required maximum" not in self._entries:
+            self._draw_limit()
+        self._limited = limit is not None
+        self.limit.data = _limit_columns(NO_LEVELS if limit is None else limit, levels)
 
     def _show_curves(self, curves):
         if curves is self._curves:
@@ -435,7 +499,7 @@ class InsertionGainFigure:
         """Tell what is drawn when the pointer rests on a band."""
         tooltips = ALONE_TOOLTIPS if alone else TOOLTIPS
         self._hover.update(
-            renderers=[self._pinned.lines[0] if alone else self._dots],
+            renderers=self._pinned.lines[:1] if alone else [self._dots],
             tooltips=tooltips + [(curve.name, f"@centre{{{place}}}") for place, curve in enumerate(curves)],
         )
 
@@ -447,8 +511,9 @@ class InsertionGainFigure:
             "required maximum": np.isfinite(limit["limit"]).any(),
             "exceeds it": np.isfinite(limit["failing"]).any(),
         }
-        entries = [entry for words, entry in self._entries.items() if drawn[words]]
-        list_in(self._legend, entries + self._pinned.shown_entries)
+        shown = [entry for words, entry in self._entries.items() if drawn[words]]
+        entries = [*self._entries.values(), *self._pinned.entries]
+        list_in(self._legend, entries, shown + self._pinned.shown_entries)
 
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
@@ -542,14 +607,14 @@ class ForceFigure:
     def _draw_forces(self):
         plot = self.model
         self._legend = new_legend(plot, "top_right")
-        self._pinned = PinnedLines(plot, self.pins, "time", ["total"] * MOST_CURVES)
         self._entries = [
             self._draw_force("total", "all supports", style.THIS_DESIGN, "solid"),
             self._draw_force(
                 "loaded_support", "support under the wheel", style.LOADED_TRACK, style.SECOND_DASH
             ),
         ]
-        list_in(self._legend, self._entries)
+        self._pinned = PinnedLines(plot, plot.renderers[0], self.pins, "time", ["total"] * MOST_CURVES)
+        list_in(self._legend, self._entries, self._entries)
 
     def _draw_force(self, column, words, colour, dash):
         """Draw a force of the design at hand, and return its entry in the legend."""
@@ -572,7 +637,7 @@ class ForceFigure:
                 description=f"Values: {words}",
             )
         )
-        return LegendItem(label=value(words), renderers=[line])
+        return legend_entry(plot, words, line)
 
     def show(self, picture, curves=()):
         """Draw a picture, and behind it the total force of pinned designs.
@@ -594,7 +659,8 @@ class ForceFigure:
         if new:
             self._send_pinned(*ends)
             self._pinned.show(curves)
-            list_in(self._legend, self._entries + self._pinned.shown_entries)
+            entries = self._entries + self._pinned.entries
+            list_in(self._legend, entries, self._entries + self._pinned.shown_entries)
 
     def _zoomed(self, event):
         if self._picture is not None:

@@ -41,14 +41,21 @@ class Frequencies(Viewer):
 
     def __init__(self, outcome):
         super().__init__()
-        self._outcome = outcome
+        self._outcome, self._in_sight = outcome, True
         self.pane = pn.pane.HTML(
             "", sizing_mode="stretch_width", stylesheets=[style.FREQUENCIES_CSS], margin=0
         )
         outcome.param.watch(self._show, "picture")
         self._show()
 
+    def look(self, in_sight):
+        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
+        self._in_sight = in_sight
+        self._show()
+
     def _show(self, *_):
+        if not self._in_sight:
+            return
         picture = self._outcome.picture
         self.pane.object = "" if picture is None else frequencies_html(picture.solution.natural_frequencies)
 

@@ -40,6 +40,7 @@ class Track(Viewer):
     def look(self, in_sight):
         """Note whether the tab is in sight; if so, draw the track as it stands."""
         self._in_sight = in_sight
+        self.frequencies.look(in_sight)
         self._draw()
 
     def _draw(self, *_):

@@ -39,7 +39,8 @@ def wait_until_listed(page, figure, names):
         """([figure, names]) => {
             const legend = Bokeh.documents[0].get_model_by_name(figure).center
                 .filter(each => each.type == "Legend")[0]
-            return JSON.stringify(legend.items.map(item => item.label.value)) == JSON.stringify(names)
+            const listed = legend.items.filter(item => item.visible).map(item => item.label.value)
+            return JSON.stringify(listed) == JSON.stringify(names)
         }""",
         arg=[figure, names],
     )
