@@ -100,25 +100,34 @@ def build(store=None, live_store=None):
     ]
     status = Status(outcome, runner.stop, runner.solve_again)
     sidebar = [DesignBar(inputs, pins, browser), Controls(inputs)]
-    return page(sidebar, status, tabs(outcome, keeping, views), browser, exchange)
+    return page(sidebar, status, tabs(outcome, keeping, views, exchange), browser, exchange)
 
 
 VIEWS = (Explore, Compare, SpecificationView, LevelView, Track, Learn, Verify, Method, Keep)
 """The tabs, in their order; a link names one by its title."""
 
 
-def tabs(outcome, keeping, views):
-    """Return the views as tabs; those that work only while somebody looks are told when they are in sight."""
+def tabs(outcome, keeping, views, exchange):
+    """Return the views as tabs; those that work only while somebody looks are told when they are in sight.
+
+    A tab is empty until it is first looked at: a page with all of them would take three times as long.
+    """
     names = [view.title.lower() for view in views]
-    shown = pmui.Tabs(*((view.title, view) for view in views), sizing_mode="stretch_width", margin=0)
+    places = [pn.Column(sizing_mode="stretch_width", margin=0) for _ in views]
+    titled = zip((view.title for view in views), places, strict=True)
+    shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0)
 
     def tell_views(*_):
-        active = views[shown.active]
+        active, place = views[shown.active], places[shown.active]
         keeping.tab = names[shown.active]
         outcome.checking = isinstance(active, Verify)
         for view in views:
             if isinstance(view, (Explore, Compare, Learn, LevelView, SpecificationView, Track)):
                 view.look(view is active)
+        # last, since not all widgets can change before the browser has drawn them
+        if not place.objects:
+            place.append(active)
+            exchange.introduce()
 
     def open_tab(*_):
         shown.active = names.index(keeping.tab)

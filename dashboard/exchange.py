@@ -127,6 +127,14 @@ class Exchange(Scripted):
         """
         self._send_msg({"kind": "save", "name": name, "text": text, "type": kind})
 
+    def introduce(self):
+        """Have the browser answer, now that a part of the page was added.
+
+        With its first message after that Bokeh sends back whatever was added and the message is about, and
+        fails where this holds scripts: the first click in a new part would be lost.
+        """
+        self._send_msg({"kind": "introduce"})
+
     def heed(self, message):
         """Do what the browser asks for."""
         match message:

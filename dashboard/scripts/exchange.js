@@ -121,6 +121,7 @@ export function render({model, view}) {
   model.on("kept", () => keep(model))
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
+    if (message.kind === "introduce") model.send_msg({kind: "introduced"})
     if (message.kind === "save") save(message.name, new Blob([message.text], {type: message.type}))
   })
   view.model.document.on_event("connection_lost", comeBack)

@@ -130,6 +130,8 @@ def test_a_whole_workshop(open_dashboard):
     expect(page.get_by_role("listitem")).to_have_count(3)
     told = {name: str(SPECIFICATION.check(each.insertion_gain)) for name, each in solutions.items()}
     assert verdicts(page) == told
+    open_tab(page, "Explore")
+    page.wait_for_function("() => Bokeh.documents[0].get_model_by_name('limit') !== null")
     limit = page.evaluate("() => Array.from(Bokeh.documents[0].get_model_by_name('limit').data.limit)")
     np.testing.assert_array_equal(np.array(limit, dtype=float), SPECIFICATION.levels)
 
