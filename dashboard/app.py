@@ -122,7 +122,7 @@ def tabs(outcome, keeping, views, exchange):
         keeping.tab = names[shown.active]
         outcome.checking = isinstance(active, Verify)
         for view in views:
-            if isinstance(view, (Explore, Compare, Learn, LevelView, SpecificationView, Track)):
+            if isinstance(view, (Compare, Learn, LevelView, SpecificationView, Track)):
                 view.look(view is active)
         # last, since not all widgets can change before the browser has drawn them
         if not place.objects:

@@ -37,7 +37,6 @@ class Explore(Viewer):
         super().__init__()
         self._outcome, self._presentation = outcome, presentation
         self._pins, self._curves, self._workshop = pins, curves, workshop
-        self._in_sight = True
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
@@ -71,12 +70,6 @@ class Explore(Viewer):
         workshop.param.watch(show_gain, "specification")
         self._show_all()
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
-        self._in_sight = in_sight
-        self.frequencies.look(in_sight)
-        self._show_all()
-
     def _show(self, *events):
         if any(event.name == "picture" for event in events):
             self._show_all()
@@ -89,7 +82,7 @@ class Explore(Viewer):
 
     def _show_forces(self):
         picture = self._outcome.picture
-        if picture is not None and self._in_sight:
+        if picture is not None:
             self.force.show(picture, self._curves.forces)
             self._name_fidelity(picture.solution.fidelity)
 
@@ -98,8 +91,6 @@ class Explore(Viewer):
         self.fidelity.param.update(label=words, variant=variant, visible=True)
 
     def _show_gain(self):
-        if not self._in_sight:
-            return
         chosen = self._presentation
         self.insertion_gain.name_axis(gain_axis(chosen))
         picture, preset = self._outcome.picture, self._outcome.preset_picture

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -12,7 +13,7 @@ import urllib.request
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import expect, sync_playwright
 
 ROOT = Path(__file__).parent.parent.parent
 
@@ -21,11 +22,14 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stab
 START_LIMIT = 120
 """Seconds that the server may take to start on a slow machine with no compiled kernels."""
 
-READY = """() => {
-    const document = window.Bokeh?.documents?.[0]
-    return document?.is_idle && document.get_model_by_name("insertion_gain")?.data.level.length == 21
-        && Number.isFinite(document.get_model_by_name("insertion_gain").data.level[0])
-}"""
+SOLVED = re.compile("Paper's run|Live run")
+"""What the status line says once there is something to see."""
+
+
+def wait_until_solved(page, timeout=60_000):
+    """Wait until a page stands still, and shows its design solved."""
+    page.wait_for_function("() => window.Bokeh?.documents?.[0]?.is_idle", timeout=timeout)
+    expect(page.get_by_role("status").filter(has_text=SOLVED).first).to_be_visible(timeout=timeout)
 
 
 @pytest.fixture(scope="session")
@@ -120,7 +124,7 @@ def open_dashboard(address, chromium):
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.on("console", lambda line: line.type in ("error", "warning") and complaints.append(line.text))
         page.goto(address + query)
-        page.wait_for_function(READY)
+        wait_until_solved(page)
         return page
 
     yield open_page

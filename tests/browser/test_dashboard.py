@@ -35,7 +35,7 @@ def wait_for_levels(page, expected):
     """Wait until the curve in the browser is the expected one; then compare it to the last digit shown."""
     page.wait_for_function(
         """expected => {
-            const level = Bokeh.documents[0].get_model_by_name("insertion_gain").data.level
+            const level = Bokeh.documents[0].get_model_by_name("insertion_gain")?.data.level ?? []
             return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
         }""",
         arg=[float(level) for level in expected],

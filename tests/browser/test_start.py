@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
-from tests.browser.conftest import READY
+from tests.browser.conftest import wait_until_solved
 
 pytestmark = pytest.mark.browser
 
@@ -17,7 +17,7 @@ def test_a_page_opened_while_kernels_are_compiled_shows_its_picture(
         context = chromium.new_context()
         page = context.new_page()
         page.goto(url)
-        page.wait_for_function(READY, timeout=90_000)
+        wait_until_solved(page, timeout=90_000)
         level = page.evaluate(
             "() => Array.from(Bokeh.documents[0].get_model_by_name('insertion_gain').data.level)"
         )

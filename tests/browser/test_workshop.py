@@ -12,6 +12,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
+from tests.browser.conftest import wait_until_solved
 
 pytestmark = pytest.mark.browser
 
@@ -22,16 +23,11 @@ SPECIFICATION = tig.Specification([(31.5, 12.0), (63, 2.0), (160, 0.0)])
 MARKUP = "<img src=x onerror=console.error(1)>"
 """Complains in the console if it is ever taken for markup."""
 
-READY = """() => {
-    const document = window.Bokeh?.documents?.[0]
-    return document?.is_idle && Number.isFinite(document.get_model_by_name("insertion_gain")?.data.level[0])
-}"""
-
 
 def wait_for_levels(page, expected):
     page.wait_for_function(
         """expected => {
-            const level = Bokeh.documents[0].get_model_by_name("insertion_gain").data.level
+            const level = Bokeh.documents[0].get_model_by_name("insertion_gain")?.data.level ?? []
             return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
         }""",
         arg=[float(level) for level in expected],
@@ -130,7 +126,6 @@ def test_a_whole_workshop(open_dashboard):
     expect(page.get_by_role("listitem")).to_have_count(3)
     told = {name: str(SPECIFICATION.check(each.insertion_gain)) for name, each in solutions.items()}
     assert verdicts(page) == told
-    open_tab(page, "Explore")
     page.wait_for_function("() => Bokeh.documents[0].get_model_by_name('limit') !== null")
     limit = page.evaluate("() => Array.from(Bokeh.documents[0].get_model_by_name('limit').data.limit)")
     np.testing.assert_array_equal(np.array(limit, dtype=float), SPECIFICATION.levels)
@@ -162,6 +157,7 @@ def test_a_whole_workshop(open_dashboard):
     wait_for_link(page, wheel_mass="700", tab="keep")
     other = open_dashboard(query="?" + urlsplit(page.url).query)
     expect(other.get_by_role("tab", name="Keep")).to_have_attribute("aria-selected", "true")
+    open_tab(other, "Explore")
     wait_for_levels(other, solutions["This design"].insertion_gain)
     assert len(link(other)["pin"]) == 2
 
@@ -254,7 +250,7 @@ def test_a_restarted_server_loses_nothing(chromium, serve, port, tmp_path):
     try:
         with serve(port, next(logs)) as url:
             page.goto(url)
-            page.wait_for_function(READY)
+            wait_until_solved(page)
             field = box(page, "Block mass, kg")
             field.fill("120")
             field.press("Enter")
@@ -271,11 +267,12 @@ def test_a_restarted_server_loses_nothing(chromium, serve, port, tmp_path):
         expect(page.get_by_text("The connection to the server is lost")).to_be_visible()
         with serve(port, next(logs)):
             page.wait_for_function("() => window.old === undefined")
-            page.wait_for_function(READY)
+            wait_until_solved(page)
             expect(page.get_by_role("textbox", name="Limit, dB, 63 Hz")).to_have_value("-3")
             expect(page.get_by_role("listitem")).to_have_count(2)
             assert page.url == before
             assert verdicts(page) == told
+            open_tab(page, "Explore")
             heavier = tig.PRESETS["booted-block-low-mass"].replace(block_mass=120)
             wait_for_levels(page, tig.solve(heavier).insertion_gain)
     finally:
