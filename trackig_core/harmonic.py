@@ -29,12 +29,15 @@ NEPER = 20 / np.log(10)
 STRAIGHTNESS = 0.05
 """Bend of a refined spectrum between neighbouring frequencies that is left alone [dB]."""
 
-MOST_HALVINGS = 24
-"""Halvings of an interval after which a peak is taken as resolved [-]: one part in a thousand million."""
+MOST_HALVINGS = 40
+"""Halvings of an interval after which a peak is taken as resolved [-]: a frequency has few more digits."""
 
+WIDEST_STEP = 3.0
+"""How much wider an interval may be than its neighbour [-]: halved intervals differ by factors of two."""
 
 MOST_FREQUENCIES = 20_000
-"""Frequencies after which a spectrum is refined no further [-]: more are asked for only by rounding noise."""
+"""Frequencies after which a spectrum is refined no further [-]: more are asked for only where losses are so
+small that rounding shows."""
 
 
 @dataclass(frozen=True)
@@ -400,7 +403,8 @@ def refined_spectrum(spectrum_at, frequency):
     """Return any model's spectrum on a frequency axis that is refined until it shows every peak.
 
     Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
-    by no more than :data:`STRAIGHTNESS`.
+    by no more than :data:`STRAIGHTNESS`, and no interval is more than :data:`WIDEST_STEP` times as wide as
+    the next.
 
     Parameters
     ----------
@@ -416,21 +420,30 @@ def refined_spectrum(spectrum_at, frequency):
     """
     known = spectrum_at(frequency)
     rows = np.array([known.frequency, known.energy, known.coherent_energy])
-    left, right = rows[:, :-1], rows[:, 1:]
+    straight = np.zeros(rows.shape[1] - 1, dtype=bool)
     for _ in range(MOST_HALVINGS):
+        halved = np.flatnonzero(~straight)
+        left, right = rows[:, halved], rows[:, halved + 1]
         between = spectrum_at((left[0] + right[0]) / 2)
         middle = np.array([between.frequency, between.energy, between.coherent_energy])
-        rows = np.concatenate([rows, middle], axis=1)
         ratio = middle[1:] ** 2 / (left[1:] * right[1:])
         with np.errstate(invalid="ignore", divide="ignore"):  # energies that rounding drowns; told below
             bend = np.abs(np.log(ratio)).max(axis=0)
-        bent = bend > 2 * STRAIGHTNESS / 10 * np.log(10)
-        if not bent.any() or rows.shape[1] > MOST_FREQUENCIES:
+        straight[halved] = ~(bend > 2 * STRAIGHTNESS / 10 * np.log(10))
+        straight = np.insert(straight, halved, straight[halved])
+        rows = np.insert(rows, halved + 1, middle, axis=1)
+        straight &= ~_too_wide(np.diff(rows[0]))
+        if straight.all() or rows.shape[1] > MOST_FREQUENCIES:
             break
-        left, middle, right = left[:, bent], middle[:, bent], right[:, bent]
-        left, right = np.concatenate([left, middle], axis=1), np.concatenate([middle, right], axis=1)
-    rows = rows[:, np.argsort(rows[0])]
     return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=known.step)
+
+
+def _too_wide(intervals):
+    """Return which intervals are much wider than a neighbour: a peak's flank may look straight by chance."""
+    neighbour = np.full_like(intervals, np.inf)
+    neighbour[1:] = intervals[:-1]
+    neighbour[:-1] = np.minimum(neighbour[:-1], intervals[1:])
+    return intervals > WIDEST_STEP * neighbour
 
 
 def refuse_if_unbounded(design):

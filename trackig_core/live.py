@@ -35,9 +35,6 @@ TAIL = 1e-3
 """Energy that what is still to come may add to a band, over twice the band's own, at which a record ends [-]:
 0.01 dB."""
 
-LONGEST_RECORD = 64.0
-"""Length to which a record may grow [s]: rail that rings between supports takes longer than the paper's 16 s."""
-
 DECAY_PARTS = 2
 """Parts over which the decay of a record's spectrum is judged [-]: beats even out."""
 
@@ -50,7 +47,7 @@ FEWEST_STEPS = 5
 STABLE_SHARE = 0.999
 """Part of the longest stable time step that is used at most [-]."""
 
-WAVE_LEFT = 0.03
+WAVE_LEFT = 0.06
 """Amplitude with which the longest-lived wave may arrive after one round, on the first trial [-]."""
 
 FIRST_BAYS = 151
@@ -168,14 +165,7 @@ class Settled:
     part's length, so that every other one changes sign from part to part. Its decay over the last parts
     tells how much is left. What rings on above the bands, between supports, does not count, and a quiet band
     counts as much as a loud one.
-
-    Attributes
-    ----------
-    longest_record : float
-        How long a record may become [s].
     """
-
-    longest_record = LONGEST_RECORD
 
     def __init__(self):
         self._whole = 0.0

@@ -41,15 +41,7 @@ class SolveCancelled(Exception):  # noqa: N818  (it is no error: the caller aske
 
 
 class Decay:
-    """When the paper's record may end: its force has decayed by 80 dB; if not, it is doubled.
-
-    Attributes
-    ----------
-    longest_record : float
-        How long it may become [s].
-    """
-
-    longest_record = LONGEST_RECORD
+    """When the paper's record may end: its force has decayed by 80 dB; if not, it is doubled."""
 
     def __init__(self):
         self._peak = 0.0
@@ -74,7 +66,7 @@ class Decay:
 def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, progress=None, cancelled=None):
     """Step a design through time until the force into the ground has died down.
 
-    The record is made longer, as far as its ending allows, until that is reached.
+    The record is made longer, up to 16 s, until its ending is reached.
 
     Parameters
     ----------
@@ -87,8 +79,8 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, pr
     step : float
         Step that squeezes the contact spring [m].
     ending : Decay, optional
-        Says when the record may end, how much longer it is made if it may not, and how long it may become.
-        By default the paper's: it is doubled, up to 16 s, until the low-passed force has decayed by 80 dB.
+        Says when the record may end, and how much longer it is made if it may not. By default the paper's:
+        it is doubled until the low-passed force has decayed by 80 dB.
     progress : callable, optional
         Called now and then with the fraction done, 0 to 1. The first record counts for half of it, the
         first extension for half of the rest, and so on, since nobody knows how many there will be.
@@ -113,7 +105,7 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, pr
     while not (decayed := ending.reached(parts[-1][:, : grid.half_bays])):
         more = ending.more(run.steps_done)
         record = (run.steps_done + more) * grid.dt
-        if record > ending.longest_record or not grid.can_afford(record):
+        if record > LONGEST_RECORD or not grid.can_afford(record):
             break
         parts.append(run.collect(more, progress, cancelled))
     samples = parts[0] if len(parts) == 1 else np.concatenate(parts)

@@ -9,11 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from trackig_core import harmonic, live
-from trackig_core.bands import BAND_EDGES, decibels
 from trackig_core.catalogue import PRESETS
 from trackig_core.convergence import time_step_errors
 from trackig_core.design import DesignError, TrackDesign
-from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain, summed_energy
+from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.grid import FEWEST_BAYS, make_grid
 from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
 from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
@@ -27,9 +26,6 @@ POOR_FIT = 0.1
 
 LARGE_STEP_ERROR = 0.5
 """Error of insertion gain in any band, made by the time step, above which the solution says so [dB]."""
-
-LARGE_DOUBT = 0.1
-"""Difference between two ways to integrate a band, above which the solution says so [dB]."""
 
 FIDELITIES = ("paper", "live", "exact")
 """Fidelities that :func:`solve` offers."""
@@ -108,7 +104,7 @@ def solve(
         notes = grid.notes + _extension_notes(grid, history) + _step_notes(design, grid)
     gain = insertion_gain(spectrum, design, frequencies.loaded_track, reference, summation)
     if fidelity == "exact":
-        notes = _sharpness_notes(spectrum, gain)
+        notes = _sharpness_notes(spectrum)
     return Solution(
         design=design,
         fidelity=fidelity,
@@ -174,16 +170,11 @@ def _plan_notes(chosen, history):
     return notes + _decay_notes(history)
 
 
-def _sharpness_notes(spectrum, gain):
-    """Return what is to be said of resonances that are too sharp to be integrated."""
-    density = summed_energy(spectrum, gain.summation)
-    panels = np.diff(spectrum.frequency) * (density[1:] + density[:-1]) / 2
-    # the band edges are among the frequencies
-    straight = np.add.reduceat(panels, np.searchsorted(spectrum.frequency, BAND_EDGES[:-1] * (1 - 1e-9)))
-    doubt = np.abs(decibels(np.clip(gain.band_energy / straight, 1e-9, None))).max()
-    if doubt <= LARGE_DOUBT:
+def _sharpness_notes(spectrum):
+    """Return what is to be said of resonances that are too sharp to be resolved."""
+    if spectrum.frequency.size <= harmonic.MOST_FREQUENCIES:
         return ()
-    return (f"some resonances are too sharp to be integrated: bands are uncertain by {doubt:.1g} dB or more",)
+    return ("some resonances are too sharp to be resolved: do not trust their bands",)
 
 
 def _step_notes(design, grid):
