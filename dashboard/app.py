@@ -38,6 +38,9 @@ from dashboard.workshop import Workshop
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
 
+OPENING = '<div role="status">Opening …</div>'
+"""What a tab holds before it is first looked at."""
+
 CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
 
 log = logging.getLogger(__name__)
@@ -113,20 +116,27 @@ def tabs(outcome, keeping, views, exchange):
     A tab is empty until it is first looked at: a page with all of them would take three times as long.
     """
     names = [view.title.lower() for view in views]
-    places = [pn.Column(sizing_mode="stretch_width", margin=0) for _ in views]
+    places = [
+        pn.Column(
+            pn.pane.HTML(OPENING, stylesheets=[style.OPENING_CSS]), sizing_mode="stretch_width", margin=0
+        )
+        for _ in views
+    ]
+    unseen = set(range(len(views)))
     titled = zip((view.title for view in views), places, strict=True)
     shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0)
 
     def tell_views(*_):
-        active, place = views[shown.active], places[shown.active]
+        active = views[shown.active]
         keeping.tab = names[shown.active]
         outcome.checking = isinstance(active, Verify)
         for view in views:
             if isinstance(view, (Compare, Learn, LevelView, SpecificationView, Track)):
                 view.look(view is active)
         # last, since not all widgets can change before the browser has drawn them
-        if not place.objects:
-            place.append(active)
+        if shown.active in unseen:
+            unseen.remove(shown.active)
+            places[shown.active].objects = [active]
             exchange.introduce()
 
     def open_tab(*_):

@@ -21,7 +21,10 @@ from dashboard.figures import (
 LEAST_DIFFERENCE = 0.02
 """What the difference axis shows at least, up and down [dB]."""
 
-FRAME_LEFT = 75
+FEW_TICKS = 4
+"""Ticks of the difference's axis, which is low [-]."""
+
+FRAME_LEFT = 88
 """Room for the value axis [px], so that the bands of two figures stand above each other."""
 
 LOG_ROOM = 1.25
@@ -112,6 +115,7 @@ class DifferenceFigure:
             stylesheets=[style.SHORT],
         )
         show_bands(self.model)
+        self.model.yaxis.ticker.desired_num_ticks = FEW_TICKS
         self.model.add_layout(zero_line())
         self.model.quad(
             left="left",

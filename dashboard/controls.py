@@ -129,8 +129,9 @@ class QuantityControl(Viewer):
             self.box.param.update(error_state=False, helper_text="")
             setattr(self._inputs, self._name, value)
         else:
-            allowed = f"give {quantity_text(low)} to {quantity_text(high)}"
-            self.box.param.update(error_state=True, helper_text=allowed)
+            wanted = "a number, " if math.isnan(value) else ""
+            advice = f"give {wanted}{quantity_text(low)} to {quantity_text(high)}"
+            self.box.param.update(error_state=True, helper_text=advice)
 
     def show(self, *_):
         """Show the input as it stands, whatever was typed."""

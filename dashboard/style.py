@@ -184,6 +184,13 @@ div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
 [role="status"] { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 .problem { color: var(--danger-bg-color); font-weight: 500; }
 """
+OPENING_CSS = """
+:host { color: var(--panel-on-background-color); font-size: 15px; }
+div { margin: 12px; opacity: 0; animation: 0s 0.4s forwards late; }
+@keyframes late { to { opacity: 1; } }
+"""
+"""What opens at once says nothing, so that nothing flickers."""
+
 SELECT_CSS = """
 select.bk-input { font-size: 15px; color: var(--panel-on-background-color); }
 select:not([multiple]).bk-input.bk-input {
