@@ -232,12 +232,18 @@ class Pins(param.Parameterized):
         self._change(key, shown=shown)
 
     def remove(self, key):
-        """Pin a design no longer; if it was the base of differences, the design at hand becomes it."""
+        """Pin a design no longer.
+
+        If it was the base of differences, the design at hand becomes it; if it was the last, the design at
+        hand is drawn again.
+        """
         gone = self[key]
         with param.parameterized.batch_call_watchers(self):
             self.pinned = tuple(pin for pin in self.pinned if pin is not gone)
             if self.base == key:
                 self.base = None
+            if not self.pinned:
+                self.alone = False
 
     def choose_base(self, key):
         """Take differences from a pin, or from the design at hand if the key is None."""

@@ -250,7 +250,8 @@ PANEL_TITLE = {"fontWeight": 700}
 
 
 def _figure_css(height):
-    return f":host {{ flex: none !important; height: {height} !important; }}"
+    icons = "--bokeh-icon-color: var(--panel-on-background-color);"
+    return f":host {{ flex: none !important; height: {height} !important; {icons} }}"
 
 
 TALL = _figure_css("max(300px, calc(53vh - 150px))")

@@ -20,6 +20,12 @@ NO_HTML = {"html": False}
 NONE_CHOSEN = "Choose an answer first: a wrong one teaches more than none."
 
 
+class Answers(pmui.RadioBoxGroup):
+    """Answers of which none is chosen at first; Panel would quietly choose the first when they are drawn."""
+
+    _allows_none = True
+
+
 class Lessons(Subject):
     """Guided lessons, one at a time.
 
@@ -57,7 +63,7 @@ class Lessons(Subject):
         self.begin = pmui.Button(label="Set where it starts", variant="outlined", on_click=self._begin)
         self.change = pmui.Button(label="Move the slider for me", variant="outlined", on_click=self._change)
         self.asked = pmui.Typography("", variant="subtitle1", margin=(6, 14, 0, 14))
-        self.answers = pmui.RadioBoxGroup(options=["…"], margin=(0, 14))
+        self.answers = Answers(options=["…"], margin=(0, 14))
         self.reveal = pmui.Button(label="Reveal", variant="contained", on_click=self._reveal)
         self.verdict = pmui.Alert(
             object="", severity="info", visible=False, sizing_mode="stretch_width", margin=(4, 14)

@@ -142,6 +142,8 @@ def test_a_lesson_runs_and_reveals_what_the_solver_finds(dashboard, number):
     look_at(dashboard, "Lessons")
     choose(dashboard, "Lesson", f"{number + 1}. {lesson.title}")
     expect(dashboard.get_by_text(lesson.question)).to_be_visible()
+    dashboard.get_by_role("button", name="Reveal").click()
+    expect(dashboard.get_by_text("Choose an answer first")).to_be_visible()
     dashboard.get_by_role("button", name="Set where it starts").click()
     wait_for_levels(dashboard, tig.solve(before).insertion_gain)
     dashboard.get_by_role("button", name="Move the slider for me").click()

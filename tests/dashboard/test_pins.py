@@ -146,6 +146,15 @@ def test_table_1_is_pinned_once_and_as_published():
     assert len(seen) == 3
 
 
+def test_when_no_pin_is_left_the_design_at_hand_is_drawn_again():
+    pins = Pins()
+    pins.show_table_1()
+    for pin in pins.pinned:
+        assert pins.alone
+        pins.remove(pin.key)
+    assert not pins.alone
+
+
 def test_table_1_is_pinned_whole_or_not_at_all():
     pins = Pins()
     for _ in range(6):
