@@ -131,7 +131,8 @@ class Exchange(Scripted):
         """Have the browser answer, now that a part of the page was added.
 
         With its first message after that Bokeh sends back whatever was added and the message is about, and
-        fails where this holds scripts: the first click in a new part would be lost.
+        fails where this holds scripts: the first click in a new part would be lost. It also answers whenever
+        it is told what to keep, as after a design was pinned.
         """
         self._send_msg({"kind": "introduce"})
 

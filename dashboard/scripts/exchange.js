@@ -118,10 +118,14 @@ async function comeBack() {
 }
 
 export function render({model, view}) {
-  model.on("kept", () => keep(model))
+  const answer = () => model.send_msg({kind: "introduced"})
+  model.on("kept", () => {
+    keep(model)
+    answer()
+  })
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
-    if (message.kind === "introduce") model.send_msg({kind: "introduced"})
+    if (message.kind === "introduce") answer()
     if (message.kind === "save") save(message.name, new Blob([message.text], {type: message.type}))
   })
   view.model.document.on_event("connection_lost", comeBack)
