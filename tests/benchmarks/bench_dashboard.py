@@ -24,6 +24,7 @@ from dashboard.views.explore import Explore
 from dashboard.views.status import Status
 from dashboard.workshop import Workshop
 from tests.browser.conftest import address, chromium, open_dashboard  # noqa: F401  (fixtures)
+from tests.browser.test_dashboard import drag
 
 OPENING = tig.PRESETS["booted-block-low-mass"]
 SLIDER = "Boot stiffness, kN/mm"
@@ -84,14 +85,7 @@ def test_a_drag(open_dashboard, tell, remark):  # noqa: F811
         page.get_by_role("button", name="Back to Table 1").click(force=True)
         page.wait_for_timeout(1500)
         handle.evaluate(WATCH)
-        thumb = handle.locator("xpath=..")
-        thumb.hover()
-        corner = thumb.bounding_box()
-        x, y = corner["x"] + corner["width"] / 2, corner["y"] + corner["height"] / 2
-        page.mouse.down()
-        for position in range(1, POSITIONS + 1):
-            page.mouse.move(x + 3 * position, y)
-            page.wait_for_timeout(30)
+        drag(page, SLIDER, POSITIONS, pixels=3, pause=30)
         page.mouse.up()
         page.wait_for_timeout(1500)
         moves, draws = page.evaluate("() => [window.moves, window.draws]")

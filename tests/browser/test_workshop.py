@@ -13,29 +13,11 @@ from playwright.sync_api import expect
 
 import trackig_core as tig
 from tests.browser.conftest import wait_until_solved
+from tests.browser.test_dashboard import MARKUP, box, drag, wait_for_levels
 
 pytestmark = pytest.mark.browser
 
-expect.set_options(timeout=60_000)
-
 SPECIFICATION = tig.Specification([(31.5, 12.0), (63, 2.0), (160, 0.0)])
-
-MARKUP = "<img src=x onerror=console.error(1)>"
-"""Complains in the console if it is ever taken for markup."""
-
-
-def wait_for_levels(page, expected):
-    page.wait_for_function(
-        """expected => {
-            const level = Bokeh.documents[0].get_model_by_name("insertion_gain")?.data.level ?? []
-            return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
-        }""",
-        arg=[float(level) for level in expected],
-    )
-
-
-def box(page, label):
-    return page.get_by_role("textbox", name=f"{label}: type a number")
 
 
 def open_tab(page, name):
@@ -46,18 +28,6 @@ def pin(page, name):
     page.get_by_role("textbox", name="Name of the design to be pinned").fill(name)
     page.get_by_role("button", name="Pin this design").click()
     expect(page.get_by_text(f"Pinned as “{name}”").first).to_be_visible()
-
-
-def drag_right(page, label, positions):
-    thumb = page.get_by_role("slider", name=label).locator("xpath=..")
-    thumb.hover()
-    corner = thumb.bounding_box()
-    x, y = corner["x"] + corner["width"] / 2, corner["y"] + corner["height"] / 2
-    page.mouse.down()
-    for step in range(1, positions + 1):
-        page.mouse.move(x + 2 * step, y)
-        page.wait_for_timeout(20)
-    page.mouse.up()
 
 
 def open_file(page, button, name, data):
@@ -101,7 +71,8 @@ def test_a_whole_workshop(open_dashboard):
     sleeper = tig.PRESETS["booted-sleeper"]
     wait_for_levels(page, tig.solve(sleeper).insertion_gain)
     pin(page, "As published")
-    drag_right(page, "Boot stiffness, kN/mm", 15)
+    drag(page, "Boot stiffness, kN/mm", 15)
+    page.mouse.up()
     # what the thumb shows is known to the browser before the server hears of it
     stiffness = float(
         page.get_by_role("slider", name="Boot stiffness, kN/mm").get_attribute("aria-valuetext")
