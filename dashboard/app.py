@@ -10,18 +10,20 @@ import panel_material_ui as pmui
 import param
 from panel.util import edit_readonly
 
-from dashboard import style
-from dashboard.browser import Browser
-from dashboard.checker import Checker
-from dashboard.controls import Controls
-from dashboard.curves import PinnedCurves
-from dashboard.exchange import NOT_HEEDED, Exchange
-from dashboard.exchange import tell as tell_user
-from dashboard.keeping import Keeping
-from dashboard.pinned import PinnedPictures
-from dashboard.pins import Pins
-from dashboard.runner import Runner, shared_live_store, shared_store
-from dashboard.state import DesignInputs, Outcome, Presentation
+from dashboard import theme
+from dashboard.client.browser import Browser
+from dashboard.client.exchange import NOT_HEEDED, Exchange
+from dashboard.client.exchange import tell as tell_user
+from dashboard.compute.checker import Checker
+from dashboard.compute.pinned import PinnedPictures
+from dashboard.compute.runner import Runner
+from dashboard.compute.workers import shared_live_store, shared_store
+from dashboard.persistence.snapshot import Keeping
+from dashboard.session.assessment import Workshop
+from dashboard.session.curves import PinnedCurves
+from dashboard.session.inputs import DesignInputs, Presentation
+from dashboard.session.pins import Pins
+from dashboard.session.results import Outcome
 from dashboard.views.compare import Compare
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
@@ -29,11 +31,11 @@ from dashboard.views.keep import Keep, copy_button
 from dashboard.views.learn import Learn
 from dashboard.views.level import LevelView
 from dashboard.views.method import Method
+from dashboard.views.sidebar import Controls
 from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
 from dashboard.views.track import Track
 from dashboard.views.verify import Verify
-from dashboard.workshop import Workshop
 
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
@@ -118,7 +120,7 @@ def tabs(outcome, keeping, views, exchange):
     names = [view.title.lower() for view in views]
     places = [
         pn.Column(
-            pn.pane.HTML(OPENING, stylesheets=[style.OPENING_CSS]), sizing_mode="stretch_width", margin=0
+            pn.pane.HTML(OPENING, stylesheets=[theme.OPENING_CSS]), sizing_mode="stretch_width", margin=0
         )
         for _ in views
     ]
@@ -160,7 +162,7 @@ def page(sidebar, status, main, browser, exchange):
     whole = pmui.Page(
         title=TITLE,
         header=[
-            pmui.Typography(SUBTITLE, variant="body1", sx=style.SUBTITLE, margin=(4, 0, 0, 16)),
+            pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(4, 0, 0, 16)),
             pn.HSpacer(),
             copy_button(),
             browser,
@@ -168,9 +170,9 @@ def page(sidebar, status, main, browser, exchange):
         ],
         sidebar=sidebar,
         main=[status, main],
-        sidebar_width=style.SIDEBAR_WIDTH,
-        theme_config=style.THEME,
-        sx=style.PAGE,
+        sidebar_width=theme.SIDEBAR_WIDTH,
+        theme_config=theme.THEME,
+        sx=theme.PAGE,
         meta_description=f"{TITLE}: {SUBTITLE}",
     )
     # the page would follow a flag that all sessions of the process share, and would never let go of it

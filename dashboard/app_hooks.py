@@ -10,8 +10,8 @@ from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
-from dashboard.runner import AT_REST, compiled, shared_live_store, shared_store
-from dashboard.state import OPENING_PRESET
+from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
+from dashboard.fields import OPENING_PRESET
 
 log = logging.getLogger(__name__)
 

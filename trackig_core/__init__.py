@@ -8,23 +8,16 @@ The one rule: what a user may rely on is named here; the modules below may chang
 
 from importlib.metadata import version
 
-from trackig_core.asymptotes import Asymptote, MeasuredSlope, gain_asymptotes, measured_slopes
-from trackig_core.band_table import BandTableError
-from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
-from trackig_core.catalogue import PRESETS, RAILS
-from trackig_core.convergence import element_errors, time_step_errors
-from trackig_core.damping import (
+from trackig_core.analysis.asymptotes import Asymptote, MeasuredSlope, gain_asymptotes, measured_slopes
+from trackig_core.analysis.damping import (
     LOSS_FACTORS,
     DampingCurve,
     damping_curves,
     gain_by_loss_factor,
     with_loss_factor,
 )
-from trackig_core.design import DesignError, Rail, TrackDesign
-from trackig_core.gain import insertion_gain
-from trackig_core.grid import RunTooLargeError
-from trackig_core.harmonic import Lattice, receptance, track_decay_rate
-from trackig_core.lumped import (
+from trackig_core.analysis.frequency_sweep import Departure, FrequencySweep, departure, frequency_sweep
+from trackig_core.analysis.lumped import (
     GOOD_ENOUGH,
     LumpedComparison,
     LumpedFrequencies,
@@ -34,21 +27,18 @@ from trackig_core.lumped import (
     lumped_insertion_gain,
     lumped_spectrum,
 )
-from trackig_core.measured import LossFactorCurve, MeasurementError, StiffnessCurve
-from trackig_core.modes import cut_on
-from trackig_core.motion import Motion, film
-from trackig_core.peer import PeerReceptance, peer_receptances
-from trackig_core.results import (
-    ForceSpectrum,
-    InsertionGain,
-    NaturalFrequencies,
-    Solution,
-    TimeHistory,
-)
-from trackig_core.shapes import SteadyShape, steady_shape
-from trackig_core.simulate import SolveCancelled
-from trackig_core.solver import compile_kernels, solve
-from trackig_core.source import (
+from trackig_core.analysis.motion import Motion, film
+from trackig_core.analysis.rolland import PeerReceptance, peer_receptances
+from trackig_core.analysis.stiff_reference import StiffReferences, stiff_references
+from trackig_core.analysis.verification import Verification, verify
+from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
+from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
+from trackig_core.frequency_domain.floquet_waves import Lattice, receptance, track_decay_rate
+from trackig_core.frequency_domain.natural_frequencies import cut_on
+from trackig_core.frequency_domain.operating_shapes import SteadyShape, steady_shape
+from trackig_core.levels.band_tables import BandTableError
+from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.levels.source import (
     A_WEIGHTING,
     LevelDifference,
     SourceError,
@@ -56,11 +46,21 @@ from trackig_core.source import (
     TrackLevel,
     a_weighting,
 )
-from trackig_core.specification import Specification, SpecificationError, Verdict
-from trackig_core.stiff_reference import StiffReferences, stiff_references
-from trackig_core.study import PinnedDesign, Study, StudyError, View
-from trackig_core.sweep import Departure, FrequencySweep, departure, frequency_sweep
-from trackig_core.verification import Verification, verify
+from trackig_core.levels.specification import Specification, SpecificationError, Verdict
+from trackig_core.results import (
+    ForceSpectrum,
+    InsertionGain,
+    NaturalFrequencies,
+    Solution,
+    TimeHistory,
+)
+from trackig_core.solver import compile_kernels, solve
+from trackig_core.study.studies import PinnedDesign, Study, StudyError, View
+from trackig_core.time_domain.grid import RunTooLargeError
+from trackig_core.time_domain.time_stepping import SolveCancelled
+from trackig_core.track.catalogue import PRESETS, RAILS
+from trackig_core.track.design import DesignError, Rail, TrackDesign
+from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
 
 __version__ = version("trackig")
 

@@ -14,10 +14,10 @@ import numpy as np
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 
 if TYPE_CHECKING:
-    from trackig_core.design import TrackDesign
-    from trackig_core.grid import Grid
-    from trackig_core.low_pass import LowPass
-    from trackig_core.relaxation import Relaxation
+    from trackig_core.time_domain.decimation import LowPass
+    from trackig_core.time_domain.grid import Grid
+    from trackig_core.track.design import TrackDesign
+    from trackig_core.track.viscoelastic_law import Relaxation
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,6 @@
 """The door: one design in, one solution out, whichever solver is asked.
 
-SI units. Source: the paper (see :mod:`trackig_core.design`). The one rule: whatever the fidelity, the
+SI units. Source: the paper (see :mod:`trackig_core.track.design`). The one rule: whatever the fidelity, the
 same reference, bands and gain follow the spectrum.
 """
 
@@ -8,18 +8,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from trackig_core import harmonic, live
-from trackig_core.catalogue import PRESETS
-from trackig_core.convergence import time_step_errors
-from trackig_core.design import DesignError, TrackDesign
-from trackig_core.gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
-from trackig_core.grid import FEWEST_BAYS, make_grid
-from trackig_core.harmonic import banded_spectrum, refuse_if_unbounded
-from trackig_core.modes import PEAK_REACH, natural_frequencies, peak_near
-from trackig_core.relaxation import laws
+from trackig_core.frequency_domain import floquet_waves, refinement
+from trackig_core.frequency_domain.convergence import time_step_errors
+from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
+from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.results import Solution
-from trackig_core.simulate import simulate
-from trackig_core.spectrum import block_to_rail, force_spectrum
+from trackig_core.time_domain import adaptive_grid
+from trackig_core.time_domain.grid import FEWEST_BAYS, make_grid
+from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
+from trackig_core.time_domain.time_stepping import simulate
+from trackig_core.track.catalogue import PRESETS
+from trackig_core.track.design import DesignError, TrackDesign
+from trackig_core.track.viscoelastic_law import laws
 
 POOR_FIT = 0.1
 """Relative error of a fitted loss factor above which the solution says so [-]."""
@@ -92,10 +93,12 @@ def solve(
         refuse_if_unbounded(design)
         spectrum = banded_spectrum(design, frequencies.loaded_track)
     elif fidelity == "live":
-        chosen = live.plan(design, frequencies.loaded_track)
+        chosen = adaptive_grid.plan(design, frequencies.loaded_track)
         grid = chosen.grid
-        history = simulate(design, grid, memory_order=live.MEMORY_ORDER, ending=live.Settled(), **watching)
-        spectrum = force_spectrum(history, live.PADDING)
+        history = simulate(
+            design, grid, memory_order=adaptive_grid.MEMORY_ORDER, ending=adaptive_grid.Settled(), **watching
+        )
+        spectrum = force_spectrum(history, adaptive_grid.PADDING)
         notes = _plan_notes(chosen, history)
     else:
         grid = make_grid(design)
@@ -126,7 +129,7 @@ def _observed(design, frequencies, spectrum, history):
         near = frequencies.coupled_block
         if history is None:
             axis = np.geomspace(near / PEAK_REACH, near * PEAK_REACH, 200)
-            block = peak_near(axis, harmonic.block_to_rail(design, axis), near)
+            block = peak_near(axis, floquet_waves.block_to_rail(design, axis), near)
         else:
             block = peak_near(*block_to_rail(history), near)
     per_line = spectrum.energy / spectrum.frequency**2
@@ -165,14 +168,14 @@ def _plan_notes(chosen, history):
     """Return what live fidelity chose, and whether that is good enough."""
     grid, record = chosen.grid, history.steps * history.time_step
     notes = (f"{grid.bays} bays, {1 / grid.dt:.0f} steps a second, a record of {record:.2g} s",)
-    if chosen.error > live.BUDGET:
+    if chosen.error > adaptive_grid.BUDGET:
         notes += (f"time step and ring cost up to {chosen.error:.2f} dB in a band",)
     return notes + _decay_notes(history)
 
 
 def _sharpness_notes(spectrum):
     """Return what is to be said of resonances that are too sharp to be resolved."""
-    if spectrum.frequency.size <= harmonic.MOST_FREQUENCIES:
+    if spectrum.frequency.size <= refinement.MOST_FREQUENCIES:
         return ()
     return ("some resonances are too sharp to be resolved: do not trust their bands",)
 

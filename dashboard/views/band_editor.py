@@ -15,12 +15,12 @@ import param
 from panel.viewable import Viewer
 
 import trackig_core as tig
-from dashboard import style
-from dashboard.exchange import Scripted, opening
-from dashboard.exports import file_name
-from trackig_core.band_table import MOST_BYTES, NOMINAL
+from dashboard import theme
+from dashboard.client.exchange import Scripted, opening
+from dashboard.persistence.exports import file_name
+from trackig_core.levels.band_tables import MOST_BYTES, NOMINAL
 
-SCRIPT = Path(__file__).parent.parent / "scripts" / "band_grid.js"
+SCRIPT = Path(__file__).parent.parent / "client" / "scripts" / "band_grid.js"
 
 NUMBER = re.compile(r"[+-]?(\d{1,20}([.,]\d{0,20})?|[.,]\d{1,20})", re.ASCII)
 """What may be typed into a box; the minus sign of typesetters becomes a hyphen first."""
@@ -44,7 +44,7 @@ class BandGrid(Scripted):
     )
 
     _esm = SCRIPT.read_text(encoding="utf-8")
-    _stylesheets: ClassVar = [style.BAND_GRID_CSS]
+    _stylesheets: ClassVar = [theme.BAND_GRID_CSS]
 
     on_typed = None
     on_pasted = None
@@ -94,7 +94,7 @@ class BandEditor(Viewer):
         self._kind = workshop.param[name].class_
         self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
-        self.message = pn.pane.HTML("", stylesheets=[style.MESSAGE_CSS], margin=(0, 12, 4, 12))
+        self.message = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(0, 12, 4, 12))
         self.pasted = pmui.TextAreaInput(
             label="Paste: Hz and dB",
             placeholder=EXAMPLES[name],

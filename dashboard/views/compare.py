@@ -8,24 +8,18 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 import trackig_core as tig
-from dashboard import style
-from dashboard.compare_figures import BaseDifferenceFigure
-from dashboard.exchange import tell
-from dashboard.later import Later
-from dashboard.pins import PinError
-from dashboard.state import display_values
+from dashboard import theme
+from dashboard.client.exchange import tell
+from dashboard.compute.document import Later
+from dashboard.figures.comparison import BaseDifferenceFigure
+from dashboard.session.inputs import display_values
+from dashboard.session.pins import PinError
 from dashboard.views.comparison_table import Column, table_html
-from dashboard.views.explore import PAPER, bokeh_pane, caption
+from dashboard.views.components import HAND, HAND_NAME, PAPER, bokeh_pane, caption
 from dashboard.views.pin_list import PinList
 
 FEW_BANDS = ("16", "31.5", "63", "125", "250")
 """Bands that are listed at first: an octave apart [Hz]."""
-
-HAND_NAME = "this\N{NO-BREAK SPACE}design"
-"""What the design at hand is called; no pin can be called so, since names hold no such space."""
-
-HAND = 0
-"""Stands for the design at hand where keys of pins are chosen from, which count from 1."""
 
 
 class Compare(Viewer):
@@ -71,10 +65,10 @@ class Compare(Viewer):
             inline=True,
             sizing_mode="stretch_width",
             margin=(0, 12, 4, 12),
-            stylesheets=[style.CHECKS_CSS],
+            stylesheets=[theme.CHECKS_CSS],
         )
         self.differences = BaseDifferenceFigure()
-        self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[style.TABLE_CSS], margin=0)
+        self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[theme.TABLE_CSS], margin=0)
         outcome.param.watch(self._show, "picture")
         self._show_later = Later(self._show)
         self.bands.param.watch(self._show_later, "value")
@@ -115,7 +109,7 @@ class Compare(Viewer):
             value=value,
             width=BASE_WIDTH,
             margin=(0, 12, 4, 12),
-            stylesheets=[style.SELECT_CSS],
+            stylesheets=[theme.SELECT_CSS],
         )
         self.base.param.watch(self._choose_base, "value")
         self._base_place.objects = [self.base]
@@ -150,7 +144,7 @@ class Compare(Viewer):
             display_values(picture.design),
             picture.solution.natural_frequencies,
             levels,
-            style.THIS_DESIGN,
+            theme.THIS_DESIGN,
             (),
         )
 

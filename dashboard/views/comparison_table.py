@@ -10,8 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 import trackig_core as tig
-from dashboard import style
-from dashboard.state import NUMBERS, SECOND_STAGE, DesignInputs, six_figures
+from dashboard import formats
+from dashboard.fields import NUMBERS, SECOND_STAGE, six_figures
+from dashboard.session.inputs import DesignInputs
+from dashboard.views.components import swatch_svg
 
 NONE = "–"
 
@@ -27,7 +29,7 @@ class Column:
     name : str
         What it is called.
     values : mapping
-        The inputs, by name of :data:`dashboard.state.INPUTS` [display units].
+        The inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
     natural : trackig_core.NaturalFrequencies or None
         Natural frequencies [Hz]; None as long as there is no solution.
     levels : numpy.ndarray (21,) or None
@@ -78,15 +80,6 @@ def table_html(columns, base, bands):
     )
 
 
-def swatch_svg(colour, dash):
-    """Return a short piece of a design's line, as it is drawn in every plot."""
-    dashes = " ".join(str(length) for length in dash) or "none"
-    return (
-        '<svg class="swatch" width="34" height="12" viewBox="0 0 34 12" aria-hidden="true">'
-        f'<path d="M1 6H33" stroke="{colour}" stroke-width="4" stroke-dasharray="{dashes}"/></svg>'
-    )
-
-
 def _head(column, is_base):
     note = '<span class="difference">base</span>' if is_base else ""
     swatch = swatch_svg(column.colour, column.dash)
@@ -130,7 +123,7 @@ def _parameter_cell(value, base):
     if value is None:
         return NONE, ""
     difference = 0.0 if base is None else six_figures(value - base)
-    return style.quantity_text(value), f"{difference:+.6g}".replace("-", "−") if difference else ""
+    return formats.quantity_text(value), f"{difference:+.6g}".replace("-", "−") if difference else ""
 
 
 def _frequency_rows(columns, base):
@@ -139,9 +132,9 @@ def _frequency_rows(columns, base):
         cells = []
         for column in columns:
             frequency = column.natural and getattr(column.natural, name)
-            text = NONE if frequency is None else style.frequency_text(frequency).removesuffix(" Hz")
+            text = NONE if frequency is None else formats.frequency_text(frequency).removesuffix(" Hz")
             differs = None not in (frequency, own) and column.key != base.key
-            cells.append((text, style.signed_text(frequency - own) if differs else ""))
+            cells.append((text, formats.signed_text(frequency - own) if differs else ""))
         yield label, cells
 
 
@@ -149,9 +142,9 @@ def _band_rows(columns, base, bands):
     for band in bands:
         cells = []
         for column in columns:
-            text = NONE if column.levels is None else style.signed_text(column.levels[band])
+            text = NONE if column.levels is None else formats.signed_text(column.levels[band])
             differs = not any(each.levels is None for each in (column, base)) and column.key != base.key
             cells.append(
-                (text, style.signed_text(column.levels[band] - base.levels[band]) if differs else "")
+                (text, formats.signed_text(column.levels[band] - base.levels[band]) if differs else "")
             )
         yield f"{tig.BAND_LABELS[band]} Hz", cells

@@ -9,11 +9,11 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import style
-from dashboard.exchange import tell
-from dashboard.history import History
-from dashboard.pins import PinError
-from dashboard.state import INPUTS, PRESET_LABELS
+from dashboard import theme
+from dashboard.client.exchange import tell
+from dashboard.fields import INPUTS, PRESET_LABELS
+from dashboard.session.history import History
+from dashboard.session.pins import PinError
 from trackig_core.names import LONGEST_NAME
 
 
@@ -49,7 +49,7 @@ class DesignBar(Viewer):
             size="small",
             variant="outlined",
             sizing_mode="stretch_width",
-            sx=style.HIDDEN_LABEL | style.LEFT_ALIGNED,
+            sx=theme.HIDDEN_LABEL | theme.LEFT_ALIGNED,
             margin=(4, 8, 0, 0),
         )
         self.pin = pmui.Button(

@@ -7,9 +7,11 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import style
-from dashboard.figures import ForceFigure, InsertionGainFigure
-from dashboard.later import Later
+from dashboard import theme
+from dashboard.compute.document import Later
+from dashboard.figures.force import ForceFigure
+from dashboard.figures.insertion_gain import InsertionGainFigure
+from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.verdict import ShortVerdict
 
@@ -56,7 +58,7 @@ class Explore(Viewer):
         )
         self.choices = [
             pn.widgets.Select.from_param(
-                parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[style.SELECT_CSS]
+                parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[theme.SELECT_CSS]
             )
             for parameter in (presentation.param.summation, presentation.param.reference)
         ]
@@ -108,7 +110,7 @@ class Explore(Viewer):
 
     def _dim(self, *_):
         for pane in (*self.panes, self.frequencies.pane):
-            pane.styles = style.STALE if self._outcome.stale else style.FRESH
+            pane.styles = theme.STALE if self._outcome.stale else theme.FRESH
 
     def __panel__(self):
         """Return what is put on the page."""
@@ -163,30 +165,6 @@ GAIN_WORDS = (
 
 CHOICE_WIDTH = 205
 
-PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": style.PANEL}
-"""What a panel of the page is made of."""
 
 FORCE_TITLE = "Force into the ground"
 FORCE_WORDS = "after a step of 0.1 mm between wheel and rail"
-
-
-def caption(title, words):
-    """Return a panel's heading."""
-    return pmui.Row(
-        pmui.Typography(title, variant="subtitle1", sx=style.PANEL_TITLE, margin=0),
-        pmui.Typography(words, variant="body2", color="text.secondary", margin=(3, 0, 0, 10)),
-        margin=(4, 0, 0, 12),
-    )
-
-
-def bokeh_pane(model):
-    """Return a figure as wide as its place."""
-    return pn.pane.Bokeh(model, sizing_mode="stretch_width", margin=0)
-
-
-def gain_axis(presentation):
-    """Return what the insertion gain's axis is called, the choice named in it."""
-    return f"IG, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
-
-
-SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}

@@ -6,7 +6,7 @@ The one rule: a frequency is never shown without saying of what.
 import panel as pn
 from panel.viewable import Viewer
 
-from dashboard import style
+from dashboard import formats, theme
 
 LOADED_TRACK = (
     "Loaded track",
@@ -43,7 +43,7 @@ class Frequencies(Viewer):
         super().__init__()
         self._outcome, self._in_sight = outcome, True
         self.pane = pn.pane.HTML(
-            "", sizing_mode="stretch_width", stylesheets=[style.FREQUENCIES_CSS], margin=0
+            "", sizing_mode="stretch_width", stylesheets=[theme.FREQUENCIES_CSS], margin=0
         )
         outcome.param.watch(self._show, "picture")
         self._show()
@@ -84,7 +84,7 @@ def explanations(natural):
             (natural.block_on_boot, "block on its boot alone, the pad taken away"),
             *pairs,
         ]
-    return [(style.frequency_text(frequency), words) for frequency, words in pairs]
+    return [(formats.frequency_text(frequency), words) for frequency, words in pairs]
 
 
 def frequencies_html(natural):
@@ -107,8 +107,8 @@ def frequencies_html(natural):
 
 def _card(key, computed, observed, name, words):
     """Return one main frequency: computed in large figures, then as observed in the run, then what it is."""
-    figure = NONE if computed is None else style.frequency_text(computed)
-    seen = "" if observed is None else f"Observed in the run: {style.frequency_text(observed)}"
+    figure = NONE if computed is None else formats.frequency_text(computed)
+    seen = "" if observed is None else f"Observed in the run: {formats.frequency_text(observed)}"
     return (
         f'<section class="main {key}"><h3>{name}</h3><p class="figure">{figure}</p>'
         f'<p class="observed">{seen}</p><p>{words}</p></section>'

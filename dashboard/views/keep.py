@@ -12,11 +12,11 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 import trackig_core as tig
-from dashboard import style
-from dashboard.exchange import COPYING, opening, saving, tell
-from dashboard.exports import file_name, force_csv, gain_csv
-from dashboard.runner import workers
-from dashboard.views.explore import PAPER, caption
+from dashboard import theme
+from dashboard.client.exchange import COPYING, opening, saving, tell
+from dashboard.compute.workers import workers
+from dashboard.persistence.exports import file_name, force_csv, gain_csv
+from dashboard.views.components import PAPER, caption
 from trackig_core.names import LONGEST_TITLE, allowed, is_name
 
 
@@ -44,7 +44,7 @@ class Keep(Viewer):
             width=320,
             margin=(6, 12, 6, 0),
         )
-        self.message = pn.pane.HTML("", stylesheets=[style.MESSAGE_CSS], margin=(0, 12, 4, 12))
+        self.message = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(0, 12, 4, 12))
         self.copy = copy_button()
         self.save = button("Save study", "save", on_click=self._save_study)
         self.open = button("Open study", "folder_open", js_on_click=opening("study"))
@@ -137,7 +137,7 @@ class Keep(Viewer):
 def write_report(study, pictures):
     """Return the report of a study, as of today (str)."""
     # plots are slow to load, and nobody waits for them who wants no report
-    from dashboard.report import html_report
+    from dashboard.report.html_report import html_report
 
     return html_report(study, pictures, date=datetime.date.today(), version=tig.__version__)
 

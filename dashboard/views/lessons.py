@@ -1,18 +1,18 @@
 """The subject of guided lessons: set this, predict, reveal.
 
-Lessons are files (:mod:`dashboard.lessons`) and taken as hostile: Markdown is rendered with HTML disabled,
-all else is escaped. A lesson sets sliders when asked to and never locks one. The one rule: what is revealed
-is computed for the lesson's own two designs, whatever the sliders stand at.
+Lessons are files (:mod:`dashboard.teaching.lessons`) and taken as hostile: Markdown is rendered with HTML
+disabled, all else is escaped. A lesson sets sliders when asked to and never locks one. The one rule: what
+is revealed is computed for the lesson's own two designs, whatever the sliders stand at.
 """
 
 import panel as pn
 import panel_material_ui as pmui
 
 import trackig_core as tig
-from dashboard import style
-from dashboard.learn_figures import BandsFigure, Curve
-from dashboard.lessons import load_lessons, reveal, set_sliders
-from dashboard.views.explore import bokeh_pane, gain_axis
+from dashboard import theme
+from dashboard.figures.learn import BandsFigure, Curve
+from dashboard.teaching.lessons import load_lessons, reveal, set_sliders
+from dashboard.views.components import bokeh_pane, gain_axis
 from dashboard.views.subjects import Subject, panel_of
 
 NO_HTML = {"html": False}
@@ -42,8 +42,8 @@ class Lessons(Subject):
     title = "Lessons"
 
     CURVES = (
-        Curve("level", "this design", style.THIS_DESIGN, width=style.LINE_WIDTH),
-        Curve("start", "where the lesson starts", style.PRESET_GHOST, style.SECOND_DASH),
+        Curve("level", "this design", theme.THIS_DESIGN, width=theme.LINE_WIDTH),
+        Curve("start", "where the lesson starts", theme.PRESET_GHOST, theme.SECOND_DASH),
     )
 
     def __init__(self, outcome, presentation, inputs, folder=None):
@@ -57,7 +57,7 @@ class Lessons(Subject):
             value=next(iter(titles.values()), None),
             width=420,
             margin=(0, 12),
-            stylesheets=[style.SELECT_CSS],
+            stylesheets=[theme.SELECT_CSS],
         )
         self.introduction, self.revealed = _text(), _text()
         self.begin = pmui.Button(label="Set where it starts", variant="outlined", on_click=self._begin)
@@ -187,7 +187,7 @@ def _text():
         renderer_options=NO_HTML,
         sizing_mode="stretch_width",
         margin=(0, 14),
-        stylesheets=[style.PROSE_CSS],
+        stylesheets=[theme.PROSE_CSS],
     )
 
 

@@ -10,11 +10,9 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import style
+from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
-from dashboard.views.compare import HAND, HAND_NAME
-from dashboard.views.explore import PAPER, caption
-from dashboard.views.verdict import swatch_svg
+from dashboard.views.components import HAND, HAND_NAME, PAPER, caption, swatch_svg
 
 
 class LevelView(Viewer):
@@ -41,10 +39,10 @@ class LevelView(Viewer):
             options={HAND_NAME: HAND},
             width=240,
             margin=(4, 12, 6, 12),
-            stylesheets=[style.SELECT_CSS],
+            stylesheets=[theme.SELECT_CSS],
         )
         self.table = pn.pane.HTML(
-            "", stylesheets=[style.LEVELS_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
+            "", stylesheets=[theme.LEVELS_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
         )
         self.editor = BandEditor(
             workshop, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
@@ -117,16 +115,16 @@ def levels_html(assessed, source, base):
 def _row(mark, name, level, base):
     difference = level.relative_to(base)
     texts = (
-        style.plain_text(level.unweighted),
-        style.plain_text(level.a_weighted),
-        style.signed_text(difference.unweighted),
-        style.signed_text(difference.a_weighted),
+        formats.plain_text(level.unweighted),
+        formats.plain_text(level.a_weighted),
+        formats.signed_text(difference.unweighted),
+        formats.signed_text(difference.a_weighted),
     )
     cells = "".join(f"<td>{text}</td>" for text in texts)
     return f'<tr><th scope="row">{mark}<span class="name">{name}</span></th>{cells}</tr>'
 
 
 def _design(assessed):
-    cells = [["" if np.isnan(level) else style.plain_text(level), False] for level in assessed.level.bands]
+    cells = [["" if np.isnan(level) else formats.plain_text(level), False] for level in assessed.level.bands]
     parts = [{"words": "level", "cells": cells}]
     return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}

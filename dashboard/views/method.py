@@ -11,8 +11,8 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import assets, style
-from dashboard.views.explore import PAPER
+from dashboard import assets, theme
+from dashboard.views.components import PAPER
 
 _EQUATION = re.compile(r"^\$\$\n(.*?)\n\$\$$", re.DOTALL | re.MULTILINE)
 
@@ -34,7 +34,7 @@ class Method(Viewer):
 
     def __panel__(self):
         """Return what is put on the page."""
-        return pmui.Paper(pmui.Column(*self.parts, max_width=style.PROSE_WIDTH, margin=(4, 16)), **PAPER)
+        return pmui.Paper(pmui.Column(*self.parts, max_width=theme.PROSE_WIDTH, margin=(4, 16)), **PAPER)
 
 
 def split(text):
@@ -63,12 +63,12 @@ def _part(kind, words):
             renderer="katex",
             sizing_mode="stretch_width",
             margin=(2, 0),
-            stylesheets=[style.EQUATION_CSS],
+            stylesheets=[theme.EQUATION_CSS],
         )
     return pn.pane.Markdown(
         words,
         renderer_options={"html": False},
         sizing_mode="stretch_width",
         margin=0,
-        stylesheets=[style.PROSE_CSS],
+        stylesheets=[theme.PROSE_CSS],
     )

@@ -10,12 +10,12 @@ import panel_material_ui as pmui
 from bokeh.models import CustomJSTickFormatter
 
 import trackig_core as tig
-from dashboard import lectures
-from dashboard.controls import QuickSlider
-from dashboard.figures import BAND_AXIS
-from dashboard.learn_figures import PickFigure
-from dashboard.motion_figures import FilmPlayer, ShapePlayer
-from dashboard.views.explore import bokeh_pane, gain_axis
+from dashboard.figures.axes import BAND_AXIS
+from dashboard.figures.learn import PickFigure
+from dashboard.figures.motion import FilmPlayer, ShapePlayer
+from dashboard.teaching import explanations
+from dashboard.views.components import bokeh_pane, gain_axis
+from dashboard.views.sidebar import QuickSlider
 from dashboard.views.subjects import Subject, panel_of, words
 
 STEPS_PER_DECADE = 100
@@ -118,7 +118,7 @@ class Motion(Subject):
         self.pick.show(level=self.presentation.levels(picture.solution))
         shape = tig.steady_shape(picture.design, float(self.pick.cursor.location))
         self.shape.show(shape)
-        self.shape_words.object = lectures.shape_words(shape)
+        self.shape_words.object = explanations.shape_words(shape)
         self.jumps[2].disabled = not picture.design.two_stage
 
     def __panel__(self):

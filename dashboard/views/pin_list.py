@@ -7,13 +7,13 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import style
-from dashboard.exchange import tell
-from dashboard.pins import PinError
-from dashboard.views.comparison_table import swatch_svg
+from dashboard import theme
+from dashboard.client.exchange import tell
+from dashboard.session.pins import PinError
+from dashboard.views.components import swatch_svg
 from trackig_core.names import LONGEST_NAME
 
-COLOURS = {name: number for number, name in enumerate(style.DESIGN_COLOUR_NAMES)}
+COLOURS = {name: number for number, name in enumerate(theme.DESIGN_COLOUR_NAMES)}
 
 
 class PinRow(Viewer):
@@ -32,7 +32,7 @@ class PinRow(Viewer):
     def __init__(self, inputs, pins, key):
         super().__init__()
         self._inputs, self._pins, self._key = inputs, pins, key
-        self.swatch = pn.pane.HTML("", width=36, margin=(18, 4, 0, 4), stylesheets=[style.SWATCH_CSS])
+        self.swatch = pn.pane.HTML("", width=36, margin=(18, 4, 0, 4), stylesheets=[theme.SWATCH_CSS])
         self.name_box = pmui.TextInput(
             label="Name of the design",
             max_length=LONGEST_NAME,
@@ -40,7 +40,7 @@ class PinRow(Viewer):
             variant="outlined",
             sizing_mode="stretch_width",
             min_width=120,
-            sx=style.HIDDEN_LABEL | style.LEFT_ALIGNED,
+            sx=theme.HIDDEN_LABEL | theme.LEFT_ALIGNED,
             margin=(9, 4, 0, 0),
         )
         self.colour = pn.widgets.Select(
@@ -48,7 +48,7 @@ class PinRow(Viewer):
             options=COLOURS,
             width=116,
             margin=(0, 4, 0, 4),
-            stylesheets=[style.SELECT_CSS],
+            stylesheets=[theme.SELECT_CSS],
         )
         self.shown = pmui.Checkbox(label="Show", margin=(7, 4, 0, 4), size="small")
         self.use = pmui.Button(label="Use", on_click=self._use, **BUTTON)

@@ -8,9 +8,9 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import style
+from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
-from dashboard.views.explore import PAPER, caption
+from dashboard.views.components import PAPER, caption
 from dashboard.views.verdict import verdicts_html
 
 
@@ -32,7 +32,7 @@ class SpecificationView(Viewer):
         self._in_sight = False
         self._workshop = workshop
         self.verdict = pn.pane.HTML(
-            "", stylesheets=[style.VERDICT_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
+            "", stylesheets=[theme.VERDICT_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
         )
         self.editor = BandEditor(
             workshop,
@@ -72,7 +72,7 @@ def _design(assessed):
     verdict = assessed.verdict
     fails = np.zeros(assessed.levels.size, bool) if verdict is None else verdict.fails
     gains = [
-        [style.signed_text(level), bool(failing)]
+        [formats.signed_text(level), bool(failing)]
         for level, failing in zip(assessed.levels, fails, strict=True)
     ]
     parts = [{"words": "gain", "cells": gains}]
@@ -85,7 +85,7 @@ def _margin_cell(margin):
     if np.isnan(margin):
         return ["", False]
     # a margin that rounds to nothing but fails must not be read as nothing
-    text = style.signed_text(margin)
+    text = formats.signed_text(margin)
     return [
         f"✗ {'−' if margin < 0 and text == '0.0' else ''}{text}" if margin < 0 else text,
         bool(margin < 0),

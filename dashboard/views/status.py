@@ -10,7 +10,7 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import style
+from dashboard import formats, theme
 
 
 class Status(Viewer):
@@ -27,7 +27,7 @@ class Status(Viewer):
     def __init__(self, outcome, on_stop, on_solve):
         super().__init__()
         self._outcome = outcome
-        self.text = pn.pane.HTML("", stylesheets=[style.STATUS_CSS], sizing_mode="stretch_width", margin=0)
+        self.text = pn.pane.HTML("", stylesheets=[theme.STATUS_CSS], sizing_mode="stretch_width", margin=0)
         self.progress = pmui.LinearProgress(
             value=0, variant="determinate", width=160, visible=False, margin=(14, 0, 0, 12)
         )
@@ -53,7 +53,7 @@ class Status(Viewer):
             self.stop,
             self.solve,
             sizing_mode="stretch_width",
-            height=style.STATUS_HEIGHT,
+            height=theme.STATUS_HEIGHT,
             margin=(4, 8, 0, 8),
         )
 
@@ -97,7 +97,7 @@ def status_words(outcome):
     if outcome.picture is None:
         return "Solving …" if outcome.busy else "Not solved yet"
     picture = outcome.picture
-    took = style.duration_text(picture.seconds)
+    took = formats.duration_text(picture.seconds)
     if picture.solution.fidelity == "live":
         words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
     elif outcome.from_cache:

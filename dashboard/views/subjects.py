@@ -1,7 +1,7 @@
 """The subjects of the *Learn* tab that explain the curves: resonances, slopes, damping, definitions, ladder.
 
-Each asks a question of :mod:`dashboard.lectures` about the design at hand, and draws the answer. The one
-rule: a subject asks and draws; it computes nothing itself.
+Each asks a question of :mod:`dashboard.teaching.explanations` about the design at hand, and draws the
+answer. The one rule: a subject asks and draws; it computes nothing itself.
 """
 
 import panel as pn
@@ -9,9 +9,10 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 import trackig_core as tig
-from dashboard import lectures, style
-from dashboard.check_figures import DampingFigure
-from dashboard.learn_figures import (
+from dashboard import theme
+from dashboard.compute.questions import Question, Teacher
+from dashboard.fields import NUMBERS, SECOND_STAGE, to_display
+from dashboard.figures.learn import (
     BandsFigure,
     Curve,
     LadderFigure,
@@ -19,9 +20,10 @@ from dashboard.learn_figures import (
     StiffReferenceFigure,
     SweepFigure,
 )
-from dashboard.state import NUMBERS, SECOND_STAGE, DesignInputs, to_display
-from dashboard.teacher import Question, Teacher
-from dashboard.views.explore import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.figures.verification import DampingFigure
+from dashboard.session.inputs import DesignInputs
+from dashboard.teaching import explanations
+from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
 
 HALF = {"xs": 12, "lg": 6}
 
@@ -129,7 +131,7 @@ class Resonances(Subject):
             value=OPENING_FIELD,
             width=260,
             margin=(0, 12, 0, 12),
-            stylesheets=[style.SELECT_CSS],
+            stylesheets=[theme.SELECT_CSS],
         )
         self.field.param.watch(self._follow, "value")
         outcome.param.watch(self._point, "picture")
@@ -140,7 +142,7 @@ class Resonances(Subject):
         fields = _fields(design.two_stage)
         chosen = self.field.value if self.field.value in fields.values() else "pad_stiffness"
         self.field.param.update(options=fields, value=chosen)
-        return lectures.resonances, design, chosen
+        return explanations.resonances, design, chosen
 
     def show(self, answer):
         """Draw a sweep."""
@@ -185,12 +187,12 @@ class Slopes(Subject):
         self.figure, self.words = SlopesFigure(), words()
         self.toggle = pmui.Switch(label="Draw the asymptotes", value=True, margin=(0, 12))
         self.toggle.param.watch(lambda event: self.figure.show_asymptotes(event.new), "value")
-        self.table = pn.pane.HTML("", stylesheets=[style.SLOPES_CSS], margin=(0, 14))
+        self.table = pn.pane.HTML("", stylesheets=[theme.SLOPES_CSS], margin=(0, 14))
         self._follow()
 
     def ask(self, design):
         """Return the question about a design."""
-        return lectures.slopes, design, *self.definition
+        return explanations.slopes, design, *self.definition
 
     def show(self, answer):
         """Draw curves and asymptotes."""
@@ -225,7 +227,7 @@ def slopes_html(measured):
     head = "".join(f'<th scope="col">{words}</th>' for words in SLOPE_HEADINGS)
     rows = "".join(
         "<tr>" + "".join(f"<td>{text}</td>" for text in row) + "</tr>"
-        for row in lectures.slope_rows(measured)
+        for row in explanations.slope_rows(measured)
     )
     caption_text = "Slopes of this design, dB per octave"
     return (
@@ -243,7 +245,7 @@ class Damping(Subject):
         for number, (factor, colour, dash) in enumerate(
             zip(
                 tig.LOSS_FACTORS,
-                (style.LOADED_TRACK, style.THIS_DESIGN, style.COUPLED_BLOCK),
+                (theme.LOADED_TRACK, theme.THIS_DESIGN, theme.COUPLED_BLOCK),
                 ("solid", [7, 3], [2, 3]),
                 strict=True,
             )
@@ -260,15 +262,15 @@ class Damping(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return lectures.damping, design, *self.definition
+        return explanations.damping, design, *self.definition
 
     def show(self, answer):
         """Draw the laws and what they do."""
         curves = {"pad": answer.pad, "boot": answer.boot}
         for figure, of in ((self.stiffness, "stiffness"), (self.loss_factor, "loss_factor")):
-            drawn = dict.fromkeys(("pad", "boot", "pad_stated", "boot_stated"), lectures.NOT_THERE)
+            drawn = dict.fromkeys(("pad", "boot", "pad_stated", "boot_stated"), explanations.NOT_THERE)
             drawn |= {part: getattr(curve, of) for part, curve in curves.items() if curve is not None}
-            figure.show(lectures.DAMPED, **drawn)
+            figure.show(explanations.DAMPED, **drawn)
         self.gain.name_axis(gain_axis(self.presentation))
         self.gain.show(**{curve.column: row for curve, row in zip(self.CURVES, answer.levels, strict=True)})
         say(self.words, answer.words)
@@ -291,15 +293,15 @@ class Definitions(Subject):
     title = "Definitions"
 
     FOUR = (
-        Curve("energy_line", "summed energy against the line (paper)", style.THIS_DESIGN, width=3),
-        Curve("energy_rigid", "summed energy against the rigid track", style.THIS_DESIGN, [7, 3]),
-        Curve("coherent_line", "coherent force against the line", style.LOADED_TRACK),
-        Curve("coherent_rigid", "coherent force against the rigid track", style.THEORY, [7, 3]),
+        Curve("energy_line", "summed energy against the line (paper)", theme.THIS_DESIGN, width=3),
+        Curve("energy_rigid", "summed energy against the rigid track", theme.THIS_DESIGN, [7, 3]),
+        Curve("coherent_line", "coherent force against the line", theme.LOADED_TRACK),
+        Curve("coherent_rigid", "coherent force against the rigid track", theme.THEORY, [7, 3]),
     )
     AGAINST = (
-        Curve("rigid", "against the rigid track", style.THIS_DESIGN, width=3),
-        Curve("stiffened", "very stiff, contact stiffened too", style.COUPLED_BLOCK, [7, 3]),
-        Curve("real", "very stiff, contact spring as it is", style.SPECIFICATION, [7, 3]),
+        Curve("rigid", "against the rigid track", theme.THIS_DESIGN, width=3),
+        Curve("stiffened", "very stiff, contact stiffened too", theme.COUPLED_BLOCK, [7, 3]),
+        Curve("real", "very stiff, contact spring as it is", theme.SPECIFICATION, [7, 3]),
     )
 
     def __init__(self, outcome, presentation):
@@ -312,7 +314,7 @@ class Definitions(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return lectures.definitions, design
+        return explanations.definitions, design
 
     def show(self, answer):
         """Draw four definitions, and very stiff references."""
@@ -349,7 +351,7 @@ class Ladder(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return lectures.ladder, design, *self.definition
+        return explanations.ladder, design, *self.definition
 
     def show(self, answer):
         """Draw both, and shade where they agree."""

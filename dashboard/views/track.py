@@ -7,10 +7,10 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-from dashboard import style
-from dashboard.drawing import track_svg
-from dashboard.state import PHYSICAL
-from dashboard.views.explore import PAPER, caption
+from dashboard import theme
+from dashboard.fields import PHYSICAL
+from dashboard.figures.track_drawing import track_svg
+from dashboard.views.components import PAPER, caption
 from dashboard.views.frequencies import Frequencies
 
 
@@ -32,7 +32,7 @@ class Track(Viewer):
         self._inputs = inputs
         self._in_sight = False
         self.drawing = pn.pane.HTML(
-            "", sizing_mode="stretch_width", stylesheets=[style.DRAWING_CSS], margin=(0, 12, 8, 12)
+            "", sizing_mode="stretch_width", stylesheets=[theme.DRAWING_CSS], margin=(0, 12, 8, 12)
         )
         self.frequencies = Frequencies(outcome)
         inputs.param.watch(self._draw, list(PHYSICAL))

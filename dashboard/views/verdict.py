@@ -8,7 +8,8 @@ import html
 import panel as pn
 from panel.viewable import Viewer
 
-from dashboard import style
+from dashboard import theme
+from dashboard.views.components import swatch_svg
 
 NONE_GIVEN = "No specification yet: type one below, paste it, or open a CSV file."
 
@@ -25,7 +26,7 @@ class ShortVerdict(Viewer):
     def __init__(self, workshop):
         super().__init__()
         self._workshop = workshop
-        self.pane = pn.pane.HTML("", stylesheets=[style.VERDICT_CSS], margin=(0, 12, 2, 12))
+        self.pane = pn.pane.HTML("", stylesheets=[theme.VERDICT_CSS], margin=(0, 12, 2, 12))
         workshop.param.watch(self._show, "assessed")
         self._show()
 
@@ -60,11 +61,3 @@ def verdicts_html(assessed):
         if each.verdict is not None
     )
     return f'<ul role="list">{rows}</ul>' if rows else f"<p>{NONE_GIVEN}</p>"
-
-
-def swatch_svg(colour, dash):
-    """Return a short line in a design's colour and dash."""
-    pattern = " ".join(map(str, dash))
-    line = f'<line x1="0" x2="34" y1="3" y2="3" stroke="{colour}" stroke-width="4"'
-    drawing = '<svg viewBox="0 0 34 6" width="34" height="6" aria-hidden="true">'
-    return f'{drawing}{line} stroke-dasharray="{pattern}"/></svg>'

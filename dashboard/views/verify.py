@@ -10,8 +10,9 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 import trackig_core as tig
-from dashboard import style
-from dashboard.check_figures import (
+from dashboard import formats, theme
+from dashboard.fields import PRESET_LABELS
+from dashboard.figures.verification import (
     ComparisonFigure,
     DampingFigure,
     DifferenceFigure,
@@ -19,8 +20,7 @@ from dashboard.check_figures import (
     ReceptanceFigure,
     TimeStepFigure,
 )
-from dashboard.state import PRESET_LABELS
-from dashboard.views.explore import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
 
 FINE = tig.Lattice(elements_per_bay=24)
 """Lattice of the twin that is compared with an independent package."""
@@ -77,7 +77,7 @@ class Verify(Viewer):
             value=next(iter(tig.peer_receptances())),
             width=240,
             margin=(0, 12, 0, 12),
-            stylesheets=[style.SELECT_CSS],
+            stylesheets=[theme.SELECT_CSS],
         )
         self.peer.param.watch(self._show_peer, "value")
         outcome.param.watch(self._show, "checked")
@@ -98,7 +98,7 @@ class Verify(Viewer):
         checked = self._outcome.checked
         stale = self._outcome.stale or (checked is not None and checked.theory is None)
         for pane in self.panes:
-            pane.styles = style.STALE if stale else style.FRESH
+            pane.styles = theme.STALE if stale else theme.FRESH
 
     def _show_run(self, *_):
         checked, chosen = self._outcome.checked, self._presentation
@@ -133,8 +133,8 @@ class Verify(Viewer):
         gaps = np.abs(20 * np.log10(np.abs(twin / peer.euler)))
         shear = 20 * np.log10(np.abs(peer.timoshenko / peer.euler))
         worst = np.argmax(np.abs(shear))
-        near, farthest = style.difference_text(gaps[below].max()), largest(gaps)
-        at_5_hz, at_worst = style.level_text(shear[0]), style.level_text(shear[worst])
+        near, farthest = formats.difference_text(gaps[below].max()), largest(gaps)
+        at_5_hz, at_worst = formats.level_text(shear[0]), formats.level_text(shear[worst])
         self.words["peer"].object = (
             "The rail's point receptance over a support, by the open-source package Rolland 26.08a1: its "
             f"Euler rail is within {near} of the twin up to 315 Hz, and parts from it most by {farthest}, "
@@ -153,7 +153,7 @@ class Verify(Viewer):
         element_error = theory.element_errors[
             np.argmin(np.abs(theory.elements_per_bay - grid.elements_per_bay))
         ]
-        in_time, along = style.difference_text(time_error), style.difference_text(element_error)
+        in_time, along = formats.difference_text(time_error), formats.difference_text(element_error)
         self.words["convergence"].object = (
             "Largest error in any band (summed energy against the straight line): "
             f"{in_time} at this run's time step, {along} at its {grid.elements_per_bay} elements a bay (both "
@@ -226,9 +226,9 @@ def largest(differences):
     """Return the largest of some differences per band (21,) [dB], in words."""
     band = int(np.argmax(np.abs(differences)))
     size = abs(differences[band])
-    if size < style.LEAST_DIFFERENCE:
-        return f"below {style.LEAST_DIFFERENCE:f} dB"
-    return f"{style.difference_text(size)} at {tig.BAND_LABELS[band]} Hz"
+    if size < formats.LEAST_DIFFERENCE:
+        return f"below {formats.LEAST_DIFFERENCE:f} dB"
+    return f"{formats.difference_text(size)} at {tig.BAND_LABELS[band]} Hz"
 
 
 def _pair(title, left, right, words):

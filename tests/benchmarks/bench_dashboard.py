@@ -15,14 +15,15 @@ from bokeh.document import Document
 from bokeh.protocol import Protocol
 
 import trackig_core as tig
-from dashboard.curves import PinnedCurves
-from dashboard.pinned import PinnedPictures
-from dashboard.pins import Pins
-from dashboard.runner import MOVING, shared_store, take_picture
-from dashboard.state import Outcome, Presentation
+from dashboard.compute.pinned import PinnedPictures
+from dashboard.compute.workers import MOVING, shared_store, take_picture
+from dashboard.session.assessment import Workshop
+from dashboard.session.curves import PinnedCurves
+from dashboard.session.inputs import Presentation
+from dashboard.session.pins import Pins
+from dashboard.session.results import Outcome
 from dashboard.views.explore import Explore
 from dashboard.views.status import Status
-from dashboard.workshop import Workshop
 from tests.browser.conftest import address, chromium, open_dashboard  # noqa: F401  (fixtures)
 from tests.browser.test_dashboard import drag
 

@@ -14,14 +14,15 @@ import pytest
 from numba import njit
 
 import trackig_core as tig
-from trackig_core import kernel
-from trackig_core.grid import make_grid
-from trackig_core.harmonic import banded_spectrum, exact_spectrum
-from trackig_core.layout import Layout
-from trackig_core.low_pass import low_pass
-from trackig_core.modes import natural_frequencies
-from trackig_core.simulate import at_rest, simulate
-from trackig_core.spectrum import force_spectrum
+from trackig_core.frequency_domain.floquet_waves import exact_spectrum
+from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
+from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.time_domain import kernels
+from trackig_core.time_domain.decimation import low_pass
+from trackig_core.time_domain.grid import make_grid
+from trackig_core.time_domain.memory_layout import Layout
+from trackig_core.time_domain.spectrum import force_spectrum
+from trackig_core.time_domain.time_stepping import at_rest, simulate
 
 PRESETS = list(tig.PRESETS)
 DESIGN = tig.PRESETS["booted-block-low-mass"]
@@ -132,8 +133,8 @@ def test_kernel_against_multiply_adds(tell, remark):
     grid, low = make_grid(DESIGN), low_pass(1 / 131072)
     state, constants = at_rest(DESIGN, grid, comb=low.comb, comb_factor=low.comb_factor)
     rows = np.empty((512, Layout(grid).columns(3)))
-    kernel.advance(*state, *constants, 0, rows)
-    seconds = fastest(kernel.advance, *state, *constants, 0, rows, rounds=30) / 512 / low.comb_factor
+    kernels.advance(*state, *constants, 0, rows)
+    seconds = fastest(kernels.advance, *state, *constants, 0, rows, rounds=30) / 512 / low.comb_factor
     filter_flops = 2 * low.comb.size / low.comb_factor
     step = grid.half_bays * (FLOPS_PER_BAY + filter_flops) / seconds / 1e9
     numbers = np.ones(96)

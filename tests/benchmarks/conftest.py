@@ -6,8 +6,8 @@ import pytest
 
 import trackig_core as tig
 from tests.core.slow import run_ring
-from trackig_core.grid import make_grid
-from trackig_core.relaxation import laws
+from trackig_core.time_domain.grid import make_grid
+from trackig_core.track.viscoelastic_law import laws
 
 DESIGN = tig.PRESETS["booted-block-low-mass"]
 

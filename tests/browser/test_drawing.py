@@ -3,7 +3,7 @@
 import pytest
 
 import trackig_core as tig
-from dashboard.drawing import track_svg
+from dashboard.figures.track_drawing import track_svg
 
 pytestmark = pytest.mark.browser
 

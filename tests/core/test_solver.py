@@ -10,12 +10,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from tests.core.test_grid import designs
-from trackig_core import kernel
-from trackig_core.grid import RING_BAYS, make_grid
-from trackig_core.harmonic import Lattice, exact_spectrum
-from trackig_core.simulate import simulate
-from trackig_core.spectrum import force_spectrum
+from tests.core.time_domain.test_grid import designs
+from trackig_core.frequency_domain import kernels as frequency_kernels
+from trackig_core.frequency_domain.floquet_waves import Lattice, exact_spectrum
+from trackig_core.time_domain import kernels as time_kernels
+from trackig_core.time_domain.grid import RING_BAYS, make_grid
+from trackig_core.time_domain.spectrum import force_spectrum
+from trackig_core.time_domain.time_stepping import simulate
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
 
@@ -287,13 +288,14 @@ def test_what_rounding_drowns_is_refused():
 
 def test_compiling_leaves_nothing_to_compile():
     tig.compile_kernels()
-    kernels = [each for each in vars(kernel).values() if hasattr(each, "signatures")]
+    every = [*vars(time_kernels).values(), *vars(frequency_kernels).values()]
+    kernels = [each for each in every if hasattr(each, "signatures")]
     before = {each: tuple(each.signatures) for each in kernels}
     for fidelity in ("paper", "exact"):
         tig.solve(BLOCK, fidelity)
     tig.verify(tig.solve(SLAB))
-    assert before[kernel.advance]
-    assert before[kernel.bay_waves]
+    assert before[time_kernels.advance]
+    assert before[frequency_kernels.bay_waves]
     assert {each: tuple(each.signatures) for each in kernels} == before
 
 

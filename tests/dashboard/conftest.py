@@ -9,13 +9,14 @@ import param
 import pytest
 
 import trackig_core as tig
-from dashboard.curves import PinnedCurves
-from dashboard.keeping import Keeping
-from dashboard.pins import Pins
-from dashboard.runner import AT_REST, take_picture
-from dashboard.state import DesignInputs, Outcome, Presentation, preset_values
-from dashboard.store import SolutionStore
-from dashboard.workshop import Workshop
+from dashboard.compute.store import SolutionStore
+from dashboard.compute.workers import AT_REST, take_picture
+from dashboard.persistence.snapshot import Keeping
+from dashboard.session.assessment import Workshop
+from dashboard.session.curves import PinnedCurves
+from dashboard.session.inputs import DesignInputs, Presentation, preset_values
+from dashboard.session.pins import Pins
+from dashboard.session.results import Outcome
 
 
 @cache

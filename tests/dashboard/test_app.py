@@ -14,7 +14,7 @@ from tornado.websocket import WebSocketClosedError
 import dashboard
 import trackig_core as tig
 from dashboard import app, app_hooks
-from dashboard.runner import AT_REST
+from dashboard.compute.workers import AT_REST
 
 MAIN = Path(dashboard.__file__).parent / "main.py"
 

@@ -8,8 +8,8 @@ import pytest
 
 import trackig_core as tig
 from dashboard import assets
-from trackig_core.asymptotes import PER_RESONANCE
-from trackig_core.relaxation import fit_loss_factor
+from trackig_core.analysis.asymptotes import PER_RESONANCE
+from trackig_core.track.viscoelastic_law import fit_loss_factor
 
 TEXT = assets.read_text(assets.METHOD)
 EQUATIONS = re.findall(r"^\$\$\n(.*?)\n\$\$$", TEXT, re.DOTALL | re.MULTILINE)

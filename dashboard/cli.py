@@ -1,0 +1,391 @@
+"""The command line: solve a track, check and report a study, serve the dashboard.
+
+SI units go in (N/m, kg, m), as everywhere in the core; Hz and dB come out. Exit codes: 0 when all went
+well, 1 when a specification is not met, 2 when the input is at fault, which is told in one line.
+
+The one rule: nothing here computes; what is printed comes from the core, as anybody's script would have it.
+"""
+
+import argparse
+import csv
+import dataclasses
+import datetime
+import difflib
+import io
+import json
+import os
+import sys
+import time
+from pathlib import Path
+
+import trackig_core as tig
+from dashboard import formats
+from dashboard.session.results import Picture
+from trackig_core.levels import band_tables
+from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
+from trackig_core.solver import FIDELITIES
+from trackig_core.study import studies
+from trackig_core.track.design import RANGES
+
+FAILED, AT_FAULT, STOPPED = 1, 2, 130
+"""Exit codes: the specification is not met; the input is at fault; the user pressed Ctrl+C."""
+
+PORT = 5006
+"""Where the dashboard is served unless another port is given [-]."""
+
+USER_ERRORS = (
+    tig.BandTableError,
+    tig.DesignError,
+    tig.RunTooLargeError,
+    tig.StudyError,
+    FloatingPointError,
+    OSError,
+)
+"""What is told in one line: the input is at fault, or the place to write to."""
+
+DESIGN_FIELDS = [field.name for field in dataclasses.fields(tig.TrackDesign)]
+
+
+class CommandError(ValueError):
+    """The command line asks for what there is not."""
+
+
+def main(arguments=None):
+    """Run one command.
+
+    Parameters
+    ----------
+    arguments : list of str, optional
+        Words of the command line; by default those of the process.
+
+    Returns
+    -------
+    int
+        Exit code.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        # names may hold characters that an old console does not have
+        stream.reconfigure(errors="replace")
+    options = _parser().parse_args(arguments)
+    try:
+        code = options.run(options)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        # whoever reads the output has read enough; what is left must not fail at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except KeyboardInterrupt:
+        return STOPPED
+    except (CommandError, *USER_ERRORS) as error:
+        sys.stderr.write(f"trackig: {_words(error)}\n")
+        return AT_FAULT
+
+
+def _words(error):
+    """Return an error in one line."""
+    if isinstance(error, OSError) and error.filename is not None:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="trackig",
+        description="Insertion gain of railway track supports.",
+        epilog="Exit codes: 0 all went well; 1 the specification is not met; 2 the input is at fault.",
+    )
+    parser.add_argument("--version", action="version", version=f"trackig {tig.__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    _add_solve(commands)
+    _add_check(commands)
+    _add_report(commands)
+    _add_serve(commands)
+    return parser
+
+
+def _add(commands, name, run, **words):
+    command = commands.add_parser(
+        name, formatter_class=argparse.RawDescriptionHelpFormatter, description=words["help"], **words
+    )
+    command.set_defaults(run=run)
+    return command
+
+
+def _add_solve(commands):
+    command = _add(
+        commands,
+        "solve",
+        _solve,
+        help="Print insertion gain per band [dB] and natural frequencies [Hz] of a track.",
+        epilog=_fields_help(),
+    )
+    command.add_argument(
+        "track",
+        metavar="PRESET|FILE.toml",
+        help=f"{', '.join(tig.PRESETS)}, or a study, for its design at hand",
+    )
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="FIELD=VALUE",
+        dest="changes",
+        help="change a field, in SI units, such as boot_stiffness=20e6; may be given again",
+    )
+    _add_fidelity(command)
+    command.add_argument("--reference", choices=REFERENCES, help="the study's, else line")
+    command.add_argument("--summation", choices=SUMMATIONS, help="the study's, else energy")
+    command.add_argument("--csv", type=Path, metavar="FILE", help="write the bands [Hz, dB] as CSV")
+    command.add_argument("--json", type=Path, metavar="FILE", help="write design and results as JSON, in SI")
+    _add_force(command)
+
+
+def _add_check(commands):
+    command = _add(
+        commands,
+        "check",
+        _check,
+        help="Hold a study's designs against its specification; exit with 1 if any fails.",
+        epilog="Checked are the design at hand and the pinned designs that are shown, not the hidden ones.",
+    )
+    command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
+    command.add_argument(
+        "--specification",
+        type=Path,
+        metavar="FILE.csv",
+        help="check against this instead: frequency_hz [Hz], ig_max_db [dB]",
+    )
+    _add_fidelity(command)
+
+
+def _add_report(commands):
+    command = _add(
+        commands,
+        "report",
+        _report,
+        help="Write a report of a study as one HTML file.",
+        epilog="Reported are the design at hand and the pinned designs that are shown.",
+    )
+    command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
+    command.add_argument("output", type=Path, metavar="OUT.html", help="where the report is written")
+    _add_fidelity(command)
+    _add_force(command)
+
+
+def _add_serve(commands):
+    command = _add(commands, "serve", _serve, help="Serve the dashboard until stopped by Ctrl+C.")
+    command.add_argument("--port", type=_port, default=PORT, help=f"1 to 65535, {PORT} unless given")
+    command.add_argument("--show", action="store_true", help="open the dashboard in a browser")
+
+
+def _add_fidelity(command):
+    command.add_argument(
+        "--fidelity", choices=FIDELITIES, default=FIDELITIES[0], help=f"{FIDELITIES[0]} unless given"
+    )
+
+
+def _add_force(command):
+    command.add_argument("--force", action="store_true", help="write over files that exist")
+
+
+def _fields_help():
+    """Return the fields of a design with their ranges and units."""
+    lines = ["fields for --set, SI units:"]
+    for name in DESIGN_FIELDS:
+        if name in RANGES:
+            low, high, unit = RANGES[name]
+            lines.append(f"  {name:18} {low:g} to {high:g} {unit}".rstrip())
+    lines.append(f"  {'rail':18} {', '.join(tig.RAILS)}")
+    lines.append("'none' for block_mass, boot_stiffness and boot_loss_factor makes a single-stage track")
+    return "\n".join(lines)
+
+
+def _port(text):
+    number = int(text) if text.isascii() and text.isdecimal() and len(text) <= 5 else 0
+    if not 1 <= number <= 65535:
+        raise argparse.ArgumentTypeError(f"{text[:20]!r}: give a whole number from 1 to 65535")
+    return number
+
+
+def _solve(options):
+    outputs = [path for path in (options.csv, options.json) if path is not None]
+    for path in outputs:
+        _refuse_to_lose(path, options.force, options.track)
+    design, view = _track(options.track)
+    solution = tig.solve(
+        design.replace(**dict(map(_change, options.changes))),
+        options.fidelity,
+        reference=options.reference or view.reference,
+        summation=options.summation or view.summation,
+    )
+    sys.stdout.write(_solution_text(solution))
+    if options.csv is not None:
+        _write(options.csv, _solution_csv(solution))
+    if options.json is not None:
+        _write(options.json, _solution_json(solution))
+    return 0
+
+
+def _track(name):
+    """Return the design and the view that a preset's name or a study's path stands for."""
+    if name in tig.PRESETS:
+        return tig.PRESETS[name], tig.View()
+    path = Path(name)
+    if not path.exists():
+        near = difflib.get_close_matches(name, tig.PRESETS, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"presets are {', '.join(tig.PRESETS)}"
+        raise CommandError(f"{name}: no preset and no file; {hint}")
+    opened = _open_study(path)
+    return opened.design, opened.view
+
+
+def _change(text):
+    """Return the field and the value that ``FIELD=VALUE`` stands for."""
+    field, equals, value = text.partition("=")
+    if not equals:
+        raise CommandError(f"--set {text}: write FIELD=VALUE, such as boot_stiffness=20e6")
+    if field == "rail":
+        if value not in tig.RAILS:
+            raise CommandError(f"--set {text}: rails are {', '.join(tig.RAILS)}")
+        return field, tig.RAILS[value]
+    if value == "none":
+        return field, None
+    try:
+        return field, float(value)
+    except ValueError:
+        return field, value
+
+
+def _read(path, most):
+    """Return what a file holds; of one that is too large, enough to tell."""
+    with path.open("rb") as file:
+        return file.read(most + 1)
+
+
+def _open_study(path):
+    try:
+        return tig.Study.from_toml(_read(path, studies.MOST_BYTES))
+    except tig.StudyError as error:
+        raise CommandError(f"{path}: {error}") from None
+
+
+def _open_specification(path):
+    try:
+        return tig.Specification.from_csv(_read(path, band_tables.MOST_BYTES))
+    except tig.SpecificationError as error:
+        raise CommandError(f"{path}: {error}") from None
+
+
+def _check(options):
+    opened = _open_study(options.study)
+    if options.specification is not None:
+        opened = dataclasses.replace(opened, specification=_open_specification(options.specification))
+    if opened.specification is None:
+        raise CommandError(
+            f"{options.study}: the study has no specification; add one, or give --specification FILE.csv"
+        )
+    complies = True
+    for pinned in opened.shown:
+        view = opened.view
+        solution = tig.solve(
+            pinned.design, options.fidelity, reference=view.reference, summation=view.summation
+        )
+        verdict = opened.specification.check(solution.insertion_gain)
+        sys.stdout.write(f"{pinned.name}: {verdict}\n")
+        complies &= verdict.complies
+    return 0 if complies else FAILED
+
+
+def _report(options):
+    # plots are slow to load, and no other command draws any
+    from dashboard.report.html_report import html_report
+
+    opened = _open_study(options.study)
+    _refuse_to_lose(options.output, options.force, options.study)
+    pictures = {
+        design: _picture(design, options.fidelity)
+        for design in {each.design for each in (*opened.shown, opened.base)}
+    }
+    report = html_report(opened, pictures, date=datetime.date.today(), version=tig.__version__)
+    _write(options.output, report)
+    sys.stdout.write(f"{options.output}\n")
+    return 0
+
+
+def _picture(design, fidelity):
+    began = time.perf_counter()
+    return Picture.of(tig.solve(design, fidelity), time.perf_counter() - began)
+
+
+def _serve(options):
+    # the server is slow to load, and no other command needs it
+    from panel.command import main as panel
+
+    address = f"http://localhost:{options.port}/{Path(__file__).parent.name}"
+    sys.stdout.write(f"trackig: serving at {address}; press Ctrl+C to stop\n")
+    sys.stdout.flush()
+    # Panel reads the words of its command from the process
+    sys.argv = ["panel", "serve", str(Path(__file__).parent), "--port", str(options.port)]
+    sys.argv += ["--show"] if options.show else []
+    panel()
+    return 0
+
+
+def _refuse_to_lose(path, force, read):
+    """Refuse to write over the file that is read, and, unless forced, over any that exists."""
+    if path.exists() and Path(read).exists() and path.samefile(read):
+        raise CommandError(f"{path}: this is the file that is read; write to another")
+    if path.exists() and not force:
+        raise CommandError(f"{path}: this file exists; give --force to write over it")
+
+
+def _write(path, text):
+    path.write_text(text, encoding="utf-8", newline="")
+
+
+def _solution_text(solution):
+    """Return bands and natural frequencies as lines for the console."""
+    gain, natural = solution.gain, solution.natural_frequencies
+    lines = [
+        f"fidelity {solution.fidelity}, reference {gain.reference}, summation {gain.summation}",
+        "",
+        "band, Hz   insertion gain, dB",
+    ]
+    lines += [
+        f"{label:>8}   {level:+18.1f}"
+        for label, level in zip(solution.band_labels, solution.insertion_gain, strict=True)
+    ]
+    lines += ["", f"loaded track    {formats.frequency_text(natural.loaded_track)}"]
+    if natural.coupled_block is not None:
+        lines.append(f"coupled block   {formats.frequency_text(natural.coupled_block)}")
+    lines += [f"note: {note}" for note in solution.notes]
+    return "\n".join(lines) + "\n"
+
+
+def _solution_csv(solution):
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["frequency_hz", "insertion_gain_db"])
+    writer.writerows(zip(solution.band_labels, map(float, solution.insertion_gain), strict=True))
+    return file.getvalue()
+
+
+def _solution_json(solution):
+    found = {
+        "trackig": tig.__version__,
+        "fidelity": solution.fidelity,
+        "reference": solution.gain.reference,
+        "summation": solution.gain.summation,
+        "design": dataclasses.asdict(solution.design),
+        "band_hz": [float(label) for label in solution.band_labels],
+        "band_centre_hz": solution.band_centres.tolist(),
+        "insertion_gain_db": solution.insertion_gain.tolist(),
+        "natural_frequencies_hz": dataclasses.asdict(solution.natural_frequencies),
+        "notes": list(solution.notes),
+    }
+    return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,188 @@
+"""What passes between a session and its browser: address bar, clipboard, files, what outlives the server.
+
+Panel's own file widgets are not used: a download of what was downloaded before does nothing, an upload is
+not bounded in Python, and one that is refused in the browser ends in a traceback on the server.
+
+The one rule: whatever comes from the browser is hostile. Messages of another form are dropped, files are
+bounded before anybody reads them, and callbacks get plain bytes or text.
+"""
+
+import asyncio
+import json
+import logging
+import secrets
+from functools import partial
+from pathlib import Path
+
+import panel as pn
+import param
+
+from dashboard.compute.document import in_turn, one_message
+from trackig_core.levels import band_tables
+from trackig_core.study import studies
+
+MOST = {
+    "study": studies.MOST_BYTES,
+    "specification": band_tables.MOST_BYTES,
+    "source": band_tables.MOST_BYTES,
+}
+"""Size that a file may have [bytes], by what it is opened for."""
+
+ACCEPTED = {"study": ".toml", "specification": ".csv,.txt,.tsv", "source": ".csv,.txt,.tsv"}
+"""What the browser's dialog offers, by what a file is opened for."""
+
+PLOTS = {
+    "insertion_gain_figure": "explore",
+    "force_figure": "explore",
+}
+"""Tab in which each plot is that can be saved, by the plot's name."""
+
+REST = 0.3
+"""Seconds without a change after which the address bar follows."""
+
+COPIED = "The link is copied: it holds the design, the pinned designs and the view."
+NOT_COPIED = "The browser does not let the page copy. Copy the address from the address bar: it is the link."
+NOT_DRAWN = "The plot could not be drawn. Open its tab, then save it again."
+NOT_HEEDED = "Something went wrong; the server's log has the details."
+NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
+
+log = logging.getLogger(__name__)
+
+
+class Scripted(pn.custom.JSComponent):
+    """A component with a script of ours: what the script says is heeded when the document may change."""
+
+    __abstract = True
+
+    def heed(self, message):
+        """Do what a message of the script asks for; one of another form asks for nothing."""
+
+    def _handle_msg(self, message):
+        heed = partial(in_turn, pn.state.curdoc, partial(self._heed_in_turn, message))
+        # what changes before the page says that it is loaded would not reach it
+        heed() if pn.state.loaded else pn.state.onload(heed)
+
+    def _heed_in_turn(self, message, document):
+        try:
+            with one_message(document):
+                self.heed(message)
+        except Exception:
+            log.exception("A message from the browser could not be heeded")
+            tell("error", NOT_HEEDED)
+
+
+class Exchange(Scripted):
+    """What passes between the session and the browser that shows it.
+
+    Parameters
+    ----------
+    keeping : Keeping
+        What the address bar follows.
+    """
+
+    kept = param.List(default=["", ""], doc="Query string of the link, and the study as TOML.")
+    session = param.String(default="", doc="Tells this session from all others.")
+
+    _esm = (Path(__file__).parent / "scripts" / "exchange.js").read_text(encoding="utf-8")
+
+    def __init__(self, keeping):
+        super().__init__(
+            session=secrets.token_hex(8), width=0, height=0, margin=0, styles={"position": "absolute"}
+        )
+        self._keeping = keeping
+        self._openers = {}
+        self._left = None
+        self._waiting = False
+        self._changed = False
+        self._note()
+        keeping.watch(self._follow)
+
+    def _note(self):
+        self.kept = [self._keeping.query(), self._keeping.study().to_toml()]
+
+    async def _follow(self, *_):
+        """Note what is kept, once changes rest."""
+        self._changed = True
+        if self._waiting:
+            return
+        self._waiting = True
+        try:
+            while self._changed:
+                self._changed = False
+                await asyncio.sleep(REST)
+            self._note()
+        finally:
+            self._waiting = False
+
+    def on_file(self, purpose, callback):
+        """Hand the bytes of whatever file is opened for a purpose, one of :data:`MOST`, to a callback."""
+        self._openers[purpose] = callback
+
+    def save(self, name, text, kind="text/csv"):
+        """Have the browser save a text as a file.
+
+        Parameters
+        ----------
+        name : str
+            Name of the file.
+        text : str
+            What it holds.
+        kind : str
+            Its media type.
+        """
+        self._send_msg({"kind": "save", "name": name, "text": text, "type": kind})
+
+    def introduce(self):
+        """Have the browser answer, now that a part of the page was added.
+
+        With its first message after that Bokeh sends back whatever was added and the message is about, and
+        fails where this holds scripts: the first click in a new part would be lost. It also answers whenever
+        it is told what to keep, as after a design was pinned.
+        """
+        self._send_msg({"kind": "introduce"})
+
+    def heed(self, message):
+        """Do what the browser asks for."""
+        match message:
+            case {"kind": "restore", "data": str(data)}:
+                self._restore(data)
+            case {"kind": "copied", "data": bool(copied)}:
+                tell("success", COPIED) if copied else tell("warning", NOT_COPIED)
+            case {"kind": "show", "data": str(name)} if name in PLOTS:
+                self._left, self._keeping.tab = self._keeping.tab, PLOTS[name]
+            case {"kind": "back"} if self._left is not None:
+                self._left, self._keeping.tab = None, self._left
+            case {"kind": "not_drawn"}:
+                tell("warning", NOT_DRAWN)
+            case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
+                self._openers[purpose](data)
+
+    def _restore(self, data):
+        try:
+            self._keeping.open(data)
+        except ValueError:
+            # it was in the browser's memory, where anybody may have written
+            log.info("A page's memory was refused", exc_info=True)
+            tell("warning", NOT_RESTORED)
+        self._note()
+        self._send_msg({"kind": "keep"})
+
+
+def tell(kind, words):
+    """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``."""
+    if pn.state.notifications is not None:
+        getattr(pn.state.notifications, kind)(words, duration=8000)
+
+
+def opening(purpose):
+    """Return what a button does in the browser to let the user choose a file for a purpose."""
+    return f"window.trackig.choose({json.dumps(purpose)}, {json.dumps(ACCEPTED[purpose])}, {MOST[purpose]})"
+
+
+def saving(plot, form, name):
+    """Return what a button does in the browser to save a plot, as ``"png"`` or ``"svg"``, as a file."""
+    return f"window.trackig.savePlot({json.dumps(plot)}, {json.dumps(form)}, {json.dumps(name)})"
+
+
+COPYING = "window.trackig.copyLink()"
+"""What a button does in the browser to copy the link."""

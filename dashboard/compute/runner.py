@@ -1,0 +1,203 @@
+"""Turns changed inputs into a new outcome, off the event loop.
+
+While inputs move, each newest state is solved at live fidelity, in some milliseconds, and older ones that
+still wait are dropped: pictures follow the hand. When inputs rest, the paper's run of the same design takes
+the picture's place. A paper run under way gives way to newer inputs at once. Solutions come from stores
+that all sessions share.
+
+The one rule: the last good picture stays until a better one is there, and no picture follows one of newer
+inputs.
+"""
+
+import asyncio
+import contextlib
+import logging
+import time
+
+import trackig_core as tig
+from dashboard.compute.latest import Latest, publish, readable
+from dashboard.compute.workers import AT_REST, MOVING, compiled
+from dashboard.fields import PHYSICAL
+
+REST = 0.2
+"""Seconds without a change after which inputs are at rest."""
+
+PATIENCE = 0.5
+"""Seconds of work after which a live run, under light damping, is given up for the paper's."""
+
+
+LOOK_EVERY = 0.1
+"""Seconds between looks at a solve under way."""
+
+LONG = 1.0
+"""Seconds of work after which a solve counts as long: it shows its progress and can be stopped. Time spent
+waiting for a worker does not count: a busy server is not slow inputs."""
+
+STOPPED = "Stopped. The pictures show the last track that was solved."
+
+
+log = logging.getLogger(__name__)
+
+
+class _StoppedError(Exception):
+    """The user stopped the solve."""
+
+
+class _SupersededError(Exception):
+    """Newer inputs arrived."""
+
+
+class _SlowError(Exception):
+    """A live run takes longer than the paper's would."""
+
+
+class Runner:
+    """Watches inputs and keeps an outcome up to date.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        What is watched.
+    outcome : Outcome
+        What is kept up to date.
+    store, live_store : SolutionStore
+        Where pictures at rest come from, and those that follow the hand.
+    """
+
+    def __init__(self, inputs, outcome, store, live_store):
+        self.inputs = inputs
+        self.outcome = outcome
+        self._store = store
+        self._live_store = live_store
+        self._latest = Latest(self._solve)
+        self._stopping = False
+        self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
+
+    def start(self):
+        """Show the picture of the inputs as they stand: at once if the store has it, else when solved."""
+        design = self.inputs.to_design()
+        picture = self._store.kept((design, AT_REST))
+        if picture is None:
+            self.solve_again()
+        else:
+            self.outcome.param.update(**self._success(design, picture, from_cache=True))
+
+    def stop(self, *_):
+        """Give up the solve under way, and what waits behind it."""
+        self._stopping = True
+        self._latest.news.clear()
+
+    def solve_again(self, *_):
+        """Solve the inputs as they stand, after a stop or a failure."""
+        self.inputs.param.trigger(*PHYSICAL)
+
+    def close(self, *_):
+        """Stop watching and solving: the session is over."""
+        self.inputs.param.unwatch(self._watcher)
+        self.stop()
+
+    async def _on_change(self, *_):
+        self._stopping = False
+        await self._latest.ask()
+
+    async def _solve(self, document):
+        if self.outcome.picture is None or self.outcome.problem:
+            self._publish(document, busy=True)
+        try:
+            await self._wait_for_compiler(document)
+            design = self.inputs.to_design()
+            if self.outcome.picture is not None and self._store.kept((design, AT_REST)) is None:
+                await self._follow(design, document)
+            picture, from_cache = await self._obtain((design, AT_REST), document)
+            changes = self._success(design, picture, from_cache)
+            self._publish(document, **changes)
+            modified = design != self.inputs.preset_design
+            if modified and changes["preset_picture"] is None:
+                ghost, _ = await self._obtain((self.inputs.preset_design, AT_REST), document)
+                self._publish(document, preset_picture=ghost)
+        except _SupersededError:
+            self._publish(document, progress=None)
+        except _StoppedError:
+            self._publish(document, busy=False, progress=None, problem=STOPPED)
+        except Exception as error:
+            self._publish(document, busy=self._latest.pending, progress=None, problem=readable(error))
+
+    async def _wait_for_compiler(self, document):
+        if compiled().done():
+            return
+        self._publish(document, compiling=True)
+        with contextlib.suppress(Exception):  # whatever is wrong will be told by the solve that meets it
+            await asyncio.wrap_future(compiled())
+        self._publish(document, compiling=False)
+
+    async def _follow(self, design, document):
+        """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
+        # what live fidelity refuses or gives up, the paper's run answers or explains
+        with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
+            picture, _ = await self._obtain((design, MOVING), document)
+            self._publish(document, **self._success(design, picture, from_cache=False))
+        if await self._news_within(REST):
+            raise _SupersededError
+
+    async def _news_within(self, seconds):
+        """Wait some time at most, and return whether newer inputs arrived."""
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(self._latest.news.wait(), seconds)
+        return self._latest.pending
+
+    def _success(self, design, picture, from_cache):
+        return {
+            "picture": picture,
+            "preset_picture": self._ghost(design),
+            "from_cache": from_cache,
+            "busy": self._latest.pending,
+            "progress": None,
+            "problem": "",
+        }
+
+    def _ghost(self, design):
+        """Return the picture of the preset that a design departs from, if it does and there is one."""
+        preset, shown = self.inputs.preset_design, self.outcome.preset_picture
+        if design == preset:
+            return None
+        return shown if shown is not None and shown.design == preset else self._store.kept((preset, AT_REST))
+
+    async def _obtain(self, key, document):
+        store = self._live_store if key[1] == MOVING else self._store
+        job = store.request(key)
+        try:
+            await self._wait(job, document)
+            return job.future.result(), job.from_cache
+        finally:
+            store.release(job)
+
+    async def _wait(self, job, document):
+        future = asyncio.wrap_future(job.future)
+        # an abandoned job may still raise; nobody is left to hear it
+        future.add_done_callback(lambda done: done.cancelled() or done.exception())
+        moving = job.key[1] == MOVING
+        while not future.done():
+            await self._look_up(future, whatever_is_new=not moving)
+            if future.done():
+                return
+            if self._stopping:
+                raise _StoppedError
+            worked = 0.0 if job.began is None else time.monotonic() - job.began
+            if moving and worked > PATIENCE:
+                raise _SlowError
+            if not moving and self._latest.pending:
+                raise _SupersededError
+            if worked > LONG:
+                self._publish(document, busy=True, progress=job.fraction)
+
+    async def _look_up(self, future, whatever_is_new):
+        """Wait until a solve is done, for a while at most, or until newer inputs arrive."""
+        news = asyncio.ensure_future(self._latest.news.wait())
+        try:
+            waited_for = {future, news} if whatever_is_new else {future}
+            await asyncio.wait(waited_for, timeout=LOOK_EVERY, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            news.cancel()
+
+    def _publish(self, document, **changes):
+        publish(self.outcome, document, **changes)

@@ -1,0 +1,68 @@
+"""The threads and the stores of solutions that all sessions of a process share."""
+
+import functools
+import os
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import trackig_core as tig
+from dashboard.compute.store import SolutionStore
+from dashboard.session.results import Picture
+
+AT_REST = "paper"
+"""Fidelity of the pictures that stay."""
+
+MOVING = "live"
+"""Fidelity of the pictures that follow the hand."""
+
+CAPACITY = 128
+"""Pictures kept; one holds 0.2 MB for a record of 2 s, 1.6 MB for one of 16 s."""
+
+LIVE_CAPACITY = 32
+"""Live pictures kept: a slider drawn to and fro asks for the same ones again."""
+
+
+def take_picture(key, progress, cancelled):
+    """Solve a design and keep what the views show.
+
+    Parameters
+    ----------
+    key : tuple
+        ``(design, fidelity)``.
+    progress, cancelled : callable
+        Handed on to :func:`trackig_core.solve`.
+
+    Returns
+    -------
+    Picture
+        The solution without its time history, and the two forces that are drawn; none of an exact one.
+    """
+    design, fidelity = key
+    began = time.perf_counter()
+    solution = tig.solve(design, fidelity=fidelity, progress=progress, cancelled=cancelled)
+    return Picture.of(solution, time.perf_counter() - began)
+
+
+@functools.cache
+def workers():
+    """Return the threads that all sessions of this process share for work that takes its time."""
+    return ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="solver")
+
+
+@functools.cache
+def compiled():
+    """Return the future of the compiled kernels; the first call has them compiled, or read from disk."""
+    return workers().submit(tig.compile_kernels)
+
+
+@functools.cache
+def shared_store():
+    """Return the store of pictures at rest that all sessions of this process share."""
+    return SolutionStore(take_picture, workers(), CAPACITY)
+
+
+@functools.cache
+def shared_live_store():
+    """Return the store of pictures that follow the hand; its own threads wait for nobody's paper run."""
+    threads = ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="live")
+    return SolutionStore(take_picture, threads, LIVE_CAPACITY)

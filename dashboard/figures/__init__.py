@@ -1,0 +1,1 @@
+"""Pictures: what draws, and knows neither server nor solver."""

@@ -1,0 +1,147 @@
+"""The pictures: built once with Bokeh, then fed by assigning each data source's ``data``.
+
+Assigning a source costs a tenth of a millisecond where a new figure costs a hundred times more.
+Sources carry names, so that tests can read in the browser what is drawn. Figures know data and
+style, no widgets and no server.
+
+The one rule: axes stay put while they can, so that the eye sees the change; they move when data
+would leave them, or would fill less than half.
+"""
+
+import math
+
+from bokeh.models import (
+    BoxZoomTool,
+    CustomJS,
+    FixedTicker,
+    PanTool,
+    Range1d,
+    ResetTool,
+    SaveTool,
+    Span,
+    WheelZoomTool,
+)
+from bokeh.plotting import figure
+
+import trackig_core as tig
+from dashboard import theme
+
+LEVEL_STEP = 5.0
+"""Grid of the ends of the level axis [dB]."""
+
+LEVEL_ROOM = 2.0
+"""Room between the curve and the ends of the level axis [dB]."""
+
+
+BAND_AXIS = (tig.BAND_EDGES[0], tig.BAND_EDGES[-1])
+"""What the frequency axis shows: all bands, edge to edge [Hz]."""
+
+
+def settled_range(current, low, high, step):
+    """Return the ends of an axis that shows data from ``low`` to ``high``.
+
+    Parameters
+    ----------
+    current : tuple of float
+        The ends as they are.
+    low, high : float
+        What must be seen.
+    step : float
+        Ends are multiples of this.
+
+    Returns
+    -------
+    tuple of float
+        ``current`` while the data lie within it and fill half of it; else the nearest multiples
+        around the data.
+    """
+    wanted = (math.floor(low / step) * step, math.ceil(high / step) * step)
+    inside = current[0] <= low and high <= current[1]
+    filled = wanted[1] - wanted[0] >= (current[1] - current[0]) / 2
+    return current if inside and filled else wanted
+
+
+def nice_step(span):
+    """Return the 1, 2 or 5 times a power of ten that cuts a span into five to twelve parts."""
+    rough = span / 10
+    power = 10.0 ** math.floor(math.log10(rough))
+    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= rough)
+
+
+class AxisEnds:
+    """The ends of one axis: they move by :func:`settled_range`, unless the user has zoomed."""
+
+    def __init__(self, ends):
+        self.model = Range1d(*ends)
+        self._home = ends
+
+    def show(self, low, high, step):
+        """Make sure that the axis shows what lies from ``low`` to ``high``."""
+        home = settled_range(self._home, low, high, step)
+        if home == self._home:
+            return
+        zoomed = (self.model.start, self.model.end) != self._home
+        self._home = home
+        self.model.reset_start, self.model.reset_end = home
+        if not zoomed:
+            self.model.start, self.model.end = home
+
+
+LABEL_AS_FIT = f"""
+    const fit = Math.ceil({theme.BAND_LABEL_WIDTH} * centres.length / cb_obj.inner_width)
+    const ticks = centres.filter((_, band) => band % Math.max(every, fit) == 0)
+    if (ticks.length != ticker.ticks.length) {{ ticker.ticks = ticks }}
+"""
+
+
+def show_bands(plot, every=1):
+    """Give a figure's frequency axis all bands, edge to edge; label every band, or one in some.
+
+    Where labels would touch each other, as on a small screen, fewer bands are labelled.
+    """
+    plot.x_range = Range1d(*BAND_AXIS, bounds=BAND_AXIS)
+    ticker = FixedTicker(ticks=list(tig.BAND_CENTRES[::every]), minor_ticks=[])
+    plot.xaxis.ticker = ticker
+    everything = {"ticker": ticker, "centres": list(tig.BAND_CENTRES), "every": every}
+    plot.js_on_change("inner_width", CustomJS(args=everything, code=LABEL_AS_FIT))
+    plot.xaxis.major_label_overrides = dict(zip(tig.BAND_CENTRES, tig.BAND_LABELS, strict=True))
+    plot.xgrid.visible = False
+
+
+def zero_line():
+    """Return a line at zero on the value axis."""
+    return Span(
+        location=0, dimension="width", line_color=theme.PRESET_GHOST, line_width=theme.THIN_LINE_WIDTH
+    )
+
+
+def blank_figure(aria_label="", **options):
+    """Return an empty figure with the tools that all have, and a name that screen readers tell."""
+    plot = figure(
+        html_attributes={
+            "role": "figure",
+            "aria-label": aria_label or options["y_axis_label"],
+        },
+        tools=[PanTool(), BoxZoomTool(), WheelZoomTool(dimensions="width"), ResetTool(), SaveTool()],
+        toolbar_location="right",
+        sizing_mode="stretch_width",
+        **options,
+    )
+    plot.toolbar.logo = None
+    plot.toolbar.autohide = True
+    for axis in plot.axis:
+        keep(axis, major_label_text_font_size=theme.TICK_SIZES, axis_label_text_font_size=theme.AXIS_SIZES)
+    return plot
+
+
+def keep(model, **looks):
+    """Keep looks of a model that the page's theme would change, each for narrow and for wide windows."""
+    for name, (narrow, wide) in looks.items():
+        setattr(model, name, wide)
+        model.js_on_change(name, CustomJS(args={"name": name, "narrow": narrow, "wide": wide}, code=KEEP))
+
+
+KEEP = f"""
+    const wanted = window.innerWidth < {theme.NARROW_WINDOW} ? narrow : wide
+    if (cb_obj[name] !== wanted) {{ cb_obj.setv({{[name]: wanted}}, {{sync: false}}) }}
+"""

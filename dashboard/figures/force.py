@@ -1,0 +1,233 @@
+"""Force into the ground over time: the picture that follows the slider.
+
+Built once with Bokeh, then fed by assigning each data source's ``data``. s and kN.
+"""
+
+import math
+
+import numpy as np
+from bokeh.events import RangesUpdate
+from bokeh.models import (
+    ColumnDataSource,
+    CustomJS,
+    CustomJSHover,
+    CustomJSTickFormatter,
+    HoverTool,
+    Range1d,
+)
+from tsdownsample import MinMaxDownsampler
+
+from dashboard import theme
+from dashboard.figures.axes import AxisEnds, blank_figure
+from dashboard.figures.legends import MOST_CURVES, PinnedLines, legend_entry, list_in, new_legend
+
+TIME_AXIS = (-0.005, 0.25)
+"""What the time axis shows at first [s]; the rest of the record is a pan or a zoom away."""
+
+POINTS_IN_VIEW = 2400
+"""Samples of a curve in view that are sent whole, and to which more are thinned [-]: two a column of a wide
+screen's pixels."""
+
+POINTS_BEYOND = 400
+"""The same for what lies out of view on either side [-], until it is moved into view."""
+
+SHOWN_AS_MILLISECONDS = 1.0
+"""Span of the time axis below which it counts in ms [s]."""
+
+
+def rungs(low, high):
+    """Return ends around data that lie on rungs 1, 2, 5, 10 ..., and a step that all of them share.
+
+    Rungs are far apart, so that an axis moves a few times while a peak grows tenfold, not at each frame.
+
+    Parameters
+    ----------
+    low, high : float
+        Least and greatest value, below and above zero.
+
+    Returns
+    -------
+    tuple of float
+        Lower end, upper end and step.
+    """
+    sizes = [max(abs(low), abs(high) / 5), max(abs(high), abs(low) / 5)]
+    powers = [10.0 ** math.floor(math.log10(size)) for size in sizes]
+    ends = [
+        next(factor * power for factor in (1, 2, 5, 10) if factor * power >= size)
+        for size, power in zip(sizes, powers, strict=True)
+    ]
+    return -ends[0], ends[1], min(powers)
+
+
+def outline(time, curves, start, end):
+    """Return which samples draw curves as they look on a screen.
+
+    Of every column of pixels in view, and of every wider one beyond, the highest and the lowest sample is
+    kept: no peak is lost.
+
+    Parameters
+    ----------
+    time : numpy.ndarray (samples,)
+        Ascending [s].
+    curves : sequence of numpy.ndarray (samples,)
+        What is drawn.
+    start, end : float
+        What is in view [s].
+
+    Returns
+    -------
+    numpy.ndarray of int
+        Indices, ascending.
+    """
+    first, last = np.searchsorted(time, [start, end])
+    parts = [(0, first, POINTS_BEYOND), (first, last, POINTS_IN_VIEW), (last, time.size, POINTS_BEYOND)]
+    kept = [np.array([0, time.size - 1])]
+    for begin, stop, points in parts:
+        if stop - begin <= points:
+            kept.append(np.arange(begin, stop))
+        else:
+            extremes = MinMaxDownsampler()
+            kept += [begin + extremes.downsample(curve[begin:stop], n_out=points) for curve in curves]
+    return np.unique(np.concatenate(kept).astype(np.int64))
+
+
+class ForceFigure:
+    """Force into the ground over time, under the loaded support and summed over all.
+
+    Attributes
+    ----------
+    model : bokeh.plotting.figure
+        The figure.
+    samples : bokeh.models.ColumnDataSource
+        Named ``force``: ``time`` [s], ``loaded_support`` and ``total`` [kN].
+    pins : list of bokeh.models.ColumnDataSource
+        Named ``pinned_force_0`` to ``pinned_force_7``: ``time`` [s] and ``total`` [kN] of pinned designs,
+        whose records differ in length.
+    """
+
+    def __init__(self):
+        self.pins = [
+            ColumnDataSource(name=f"pinned_force_{place}", data={"time": [], "total": []})
+            for place in range(MOST_CURVES)
+        ]
+        self.samples = ColumnDataSource(name="force", data={"time": [], "loaded_support": [], "total": []})
+        self._forces = AxisEnds((-1.0, 1.0))
+        self.model = blank_figure(
+            name="force_figure",
+            aria_label="Force into the ground over time",
+            x_range=Range1d(*TIME_AXIS),
+            y_range=self._forces.model,
+            x_axis_label=TIME_LABELS[0],
+            y_axis_label="Force into the ground, kN",
+            stylesheets=[theme.LOW],
+        )
+        self._picture, self._curves = None, ()
+        self._count_time_as_zoom_asks()
+        self._draw_forces()
+        self.model.on_event(RangesUpdate, self._zoomed)
+
+    def _count_time_as_zoom_asks(self):
+        axis, ends = self.model.xaxis[0], self.model.x_range
+        axis.formatter = CustomJSTickFormatter(args={"ends": ends}, code=TIME_TICK)
+        relabel = CustomJS(args={"ends": ends, "axis": axis}, code=TIME_LABEL)
+        ends.js_on_change("start", relabel)
+        ends.js_on_change("end", relabel)
+
+    def _draw_forces(self):
+        plot = self.model
+        self._legend = new_legend(plot, "top_right")
+        self._entries = [
+            self._draw_force("total", "all supports", theme.THIS_DESIGN, "solid"),
+            self._draw_force(
+                "loaded_support", "support under the wheel", theme.LOADED_TRACK, theme.SECOND_DASH
+            ),
+        ]
+        self._pinned = PinnedLines(plot, plot.renderers[0], self.pins, "time", ["total"] * MOST_CURVES)
+        list_in(self._legend, self._entries, self._entries)
+
+    def _draw_force(self, column, words, colour, dash):
+        """Draw a force of the design at hand, and return its entry in the legend."""
+        plot = self.model
+        line = plot.line(
+            x="time",
+            y=column,
+            source=self.samples,
+            line_color=colour,
+            line_width=theme.THIN_LINE_WIDTH,
+            line_dash=dash,
+        )
+        time = CustomJSHover(args={"ends": plot.x_range}, code=TIME_HOVER)
+        plot.add_tools(
+            HoverTool(
+                renderers=[line],
+                mode="vline" if column == "total" else "mouse",
+                tooltips=[("time", "@time{custom}"), (words, f"@{column}{{+0.00}} kN")],
+                formatters={"@time": time},
+                description=f"Values: {words}",
+            )
+        )
+        return legend_entry(plot, words, line)
+
+    def show(self, picture, curves=()):
+        """Draw a picture, and behind it the total force of pinned designs.
+
+        Parameters
+        ----------
+        picture : Picture
+            What is drawn.
+        curves : tuple of Curve
+            Up to eight pinned designs; the same tuple again is not sent again.
+        """
+        new = curves is not self._curves
+        self._picture, self._curves = picture, curves
+        forces = [picture.total_force, picture.loaded_support_force]
+        forces += [curve.drawn.total_force for curve in curves]
+        self._forces.show(*rungs(min(each.min() for each in forces), max(each.max() for each in forces)))
+        ends = (self.model.x_range.start, self.model.x_range.end)
+        self._send(*ends)
+        if new:
+            self._send_pinned(*ends)
+            self._pinned.show(curves)
+            entries = self._entries + self._pinned.entries
+            list_in(self._legend, entries, self._entries + self._pinned.shown_entries)
+
+    def _zoomed(self, event):
+        if self._picture is not None:
+            self._send(event.x0, event.x1)
+            self._send_pinned(event.x0, event.x1)
+
+    def _send(self, start, end):
+        """Send as much of the record as can be seen: all that lies in view, an outline of the rest."""
+        picture = self._picture
+        forces = {"loaded_support": picture.loaded_support_force, "total": picture.total_force}
+        self.samples.data = _in_view(picture.time, forces, start, end)
+
+    def _send_pinned(self, start, end):
+        for source, curve in zip(self.pins, self._curves, strict=False):
+            source.data = _in_view(curve.drawn.time, {"total": curve.drawn.total_force}, start, end)
+        for source in self.pins[len(self._curves) :]:
+            if len(source.data["time"]):
+                source.data = {"time": [], "total": []}
+
+
+def _in_view(time, forces, start, end):
+    some = outline(time, tuple(forces.values()), start, end)
+    return {name: each[some].astype(np.float32) for name, each in {"time": time, **forces}.items()}
+
+
+TIME_LABELS = ("Time, ms", "Time, s")
+
+TIME_TICK = f"""
+    const scale = ends.end - ends.start < {SHOWN_AS_MILLISECONDS} ? 1000 : 1
+    return String(Number((scale * tick).toPrecision(6)))
+"""
+
+TIME_LABEL = f"""
+    axis.axis_label = ends.end - ends.start < {SHOWN_AS_MILLISECONDS}
+        ? "{TIME_LABELS[0]}" : "{TIME_LABELS[1]}"
+"""
+
+TIME_HOVER = f"""
+    return ends.end - ends.start < {SHOWN_AS_MILLISECONDS}
+        ? (1000 * value).toFixed(1) + " ms" : value.toFixed(4) + " s"
+"""

@@ -1,0 +1,321 @@
+"""Insertion gain per one-third-octave band: the picture that follows the slider.
+
+Built once with Bokeh, then fed by assigning each data source's ``data``. Hz and dB.
+"""
+
+import math
+
+import numpy as np
+from bokeh.core.properties import value
+from bokeh.models import (
+    ColumnDataSource,
+    CustomJSHover,
+    GlyphRenderer,
+    HoverTool,
+    Label,
+    Quad,
+    Segment,
+    Span,
+    Text,
+)
+
+import trackig_core as tig
+from dashboard import formats, theme
+from dashboard.figures.axes import (
+    BAND_AXIS,
+    LEVEL_ROOM,
+    LEVEL_STEP,
+    AxisEnds,
+    blank_figure,
+    show_bands,
+    zero_line,
+)
+from dashboard.figures.legends import MOST_CURVES, NO_LABEL, PinnedLines, legend_entry, list_in, new_legend
+from trackig_core.levels.specification import TOLD_APART
+
+LEAST_LEVELS = (-28.0, 18.0)
+"""What the level axis shows at least, without the room [dB]."""
+
+LABEL_FLIPS = 0.75
+"""Part of the frequency axis from which on a marker's label stands to the left of its line."""
+
+
+class _Marker:
+    """A natural frequency as a vertical line, its label above the frame where no curve can reach it."""
+
+    def __init__(self, plot, name, words, colour):
+        self._words = words
+        self.line = Span(
+            name=name,
+            location=BAND_AXIS[0],
+            dimension="height",
+            line_color=colour,
+            line_width=theme.THIN_LINE_WIDTH,
+            line_dash="dotdash",
+            visible=False,
+        )
+        self.label = Label(
+            name=f"{name}_label",
+            x=BAND_AXIS[0],
+            y=0,
+            y_units="screen",
+            text=NO_LABEL,
+            text_baseline="bottom",
+            text_color=colour,
+            text_font=theme.FONT,
+            text_font_size=theme.MARKER_LABEL_SIZE,
+            text_font_style="bold",
+        )
+        plot.add_layout(self.line)
+        plot.add_layout(self.label, "above")
+
+    def show(self, frequency):
+        if frequency is None:
+            self.line.visible, self.label.text = False, NO_LABEL
+            return
+        low, high = BAND_AXIS
+        place = math.log(frequency / low) / math.log(high / low)
+        text = f"{self._words} {formats.frequency_text(frequency)}"
+        self.line.update(location=frequency, visible=0 <= place <= 1)
+        self.label.update(
+            x=min(max(frequency, low), high),
+            text=f"{text} →" if place > 1 else f"← {text}" if place < 0 else text,
+            text_align="left" if place < LABEL_FLIPS else "right",
+        )
+
+
+class InsertionGainFigure:
+    """Insertion gain per one-third-octave band, with the natural frequencies marked.
+
+    Attributes
+    ----------
+    model : bokeh.plotting.figure
+        The figure.
+    bands : bokeh.models.ColumnDataSource
+        Named ``insertion_gain``: per band its ``label``, ``centre``, ``left`` and ``right`` edge [Hz], the
+        ``level`` of the design and that of its ``preset`` [dB], NaN when there is none to compare with.
+    pins : bokeh.models.ColumnDataSource
+        Named ``pins``: per band its ``label``, its ``centre`` [Hz] and levels ``pin_0`` to ``pin_7`` [dB],
+        NaN when there are not so many.
+    limit : bokeh.models.ColumnDataSource
+        Named ``limit``: per band its edges, the required ``limit`` [dB], ``before``, that of the band to the
+        left, and ``failing``, the level of the design where it exceeds the limit; NaN where there is none.
+    """
+
+    def __init__(self):
+        self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
+        self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
+        self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
+        self._curves, self._limited = (), False
+        self._levels = AxisEnds((-30.0, 20.0))
+        self.model = blank_figure(
+            name="insertion_gain_figure",
+            aria_label="Insertion gain per one-third-octave band",
+            x_axis_type="log",
+            y_range=self._levels.model,
+            x_axis_label="One-third-octave band, Hz",
+            y_axis_label="Insertion gain, dB",
+            stylesheets=[theme.TALL],
+        )
+        self._draw_bands()
+        self._loaded_track = _Marker(self.model, "loaded_track", "loaded track", theme.LOADED_TRACK)
+        self._coupled_block = _Marker(self.model, "coupled_block", "coupled block", theme.COUPLED_BLOCK)
+
+    def _draw_bands(self):
+        plot = self.model
+        show_bands(plot)
+        plot.add_layout(zero_line())
+        self._legend = new_legend(plot, "bottom_left")
+        self._fill = plot.quad(
+            left="left",
+            right="right",
+            bottom=0,
+            top="level",
+            source=self.bands,
+            fill_color=theme.THIS_DESIGN,
+            fill_alpha=theme.FILL_ALPHA,
+            line_color=None,
+        )
+        shared = {"source": self.bands, "x": "centre"}
+        self._ghost = plot.line(
+            y="preset",
+            line_color=theme.PRESET_GHOST,
+            line_width=theme.THIN_LINE_WIDTH,
+            line_dash="dashed",
+            **shared,
+        )
+        names = [f"pin_{place}" for place in range(MOST_CURVES)]
+        self._pinned = PinnedLines(plot, self._ghost, [self.pins] * MOST_CURVES, "centre", names)
+        self._line = plot.line(y="level", line_color=theme.THIS_DESIGN, line_width=theme.LINE_WIDTH, **shared)
+        self._dots = plot.scatter(y="level", color=theme.THIS_DESIGN, size=theme.DOT_SIZE, **shared)
+        pinned = CustomJSHover(args={"pins": self.pins}, code=PIN_HOVER)
+        self._hover = HoverTool(
+            renderers=[self._dots], mode="vline", tooltips=TOOLTIPS, formatters={"@centre": pinned}
+        )
+        plot.add_tools(self._hover)
+        self._entries = {
+            "this design": legend_entry(plot, "this design", self._line, self._dots),
+            "as in Table 1": legend_entry(plot, "as in Table 1", self._ghost),
+        }
+
+    def _draw_limit(self):
+        """Draw the limit and what exceeds it, behind all curves; without a limit there is nothing to draw."""
+        plot, colour = self.model, theme.SPECIFICATION
+        width = theme.LIMIT_LINE_WIDTH
+        required = Segment(x0="left", x1="right", y0="limit", y1="limit", line_color=colour, line_width=width)
+        riser = Segment(x0="left", x1="left", y0="before", y1="limit", line_color=colour, line_width=width)
+        failing = Quad(
+            left="left",
+            right="right",
+            bottom="limit",
+            top="failing",
+            fill_color=None,
+            line_color=colour,
+            line_width=theme.THIN_LINE_WIDTH,
+            hatch_pattern="right_diagonal_line",
+            hatch_color=colour,
+            hatch_weight=2,
+            hatch_scale=10,
+        )
+        cross = Text(
+            x="centre",
+            y="failing",
+            text=value("✗"),
+            text_align="center",
+            text_baseline="bottom",
+            text_color=colour,
+            text_font_size=theme.FAILING_SIZE,
+            y_offset=-3,
+        )
+        parts = [
+            GlyphRenderer(data_source=self.limit, glyph=glyph) for glyph in (required, riser, failing, cross)
+        ]
+        behind = plot.renderers.index(self._fill) + 1
+        plot.renderers[behind:behind] = parts
+        self._entries["required maximum"] = legend_entry(plot, "required maximum", parts[0])
+        self._entries["exceeds it"] = legend_entry(plot, "exceeds it", parts[2])
+
+    def name_axis(self, words):
+        """Say on the axis which insertion gain is drawn."""
+        self.model.yaxis.axis_label = words
+
+    def show(self, levels, preset_levels, natural, curves=(), limit=None, alone=False):
+        """Draw insertion gain, and behind it that of the preset it departs from and of pinned designs.
+
+        Parameters
+        ----------
+        levels : numpy.ndarray (21,)
+            Insertion gain [dB].
+        preset_levels : numpy.ndarray (21,) or None
+            What it is compared with [dB].
+        natural : trackig_core.NaturalFrequencies
+            What is marked.
+        curves : tuple of Curve
+            Up to eight pinned designs; the same tuple again is not sent again.
+        limit : numpy.ndarray (21,) or None
+            Greatest insertion gain allowed [dB], NaN in bands that have no limit.
+        alone : bool
+            Whether the curves stand alone: then of the design at hand nothing is drawn.
+        """
+        preset = NO_LEVELS if preset_levels is None or alone else preset_levels
+        self.bands.data = _band_columns(levels, preset)
+        self._show_limit(limit, NO_LEVELS if alone else levels)
+        for part in (self._fill, self._line, self._dots):
+            part.visible = not alone
+        self._loaded_track.show(None if alone else natural.loaded_track)
+        self._coupled_block.show(None if alone else natural.coupled_block)
+        self._show_curves(curves)
+        self._tell(curves, alone)
+        self._list_what_is_drawn()
+        seen = [
+            NO_LEVELS if alone else levels,
+            preset,
+            self.limit.data["limit"],
+            *(curve.drawn for curve in curves),
+            LEAST_LEVELS,
+        ]
+        every = np.concatenate(seen)
+        self._levels.show(np.nanmin(every) - LEVEL_ROOM, np.nanmax(every) + LEVEL_ROOM, LEVEL_STEP)
+
+    def _show_limit(self, limit, levels):
+        if limit is None and not self._limited:
+            return
+        if limit is not None and "required maximum" not in self._entries:
+            self._draw_limit()
+        self._limited = limit is not None
+        self.limit.data = _limit_columns(NO_LEVELS if limit is None else limit, levels)
+
+    def _show_curves(self, curves):
+        if curves is self._curves:
+            return
+        self._curves = curves
+        self.pins.data = pin_columns(curves)
+        self._pinned.show(curves)
+
+    def _tell(self, curves, alone):
+        """Tell what is drawn when the pointer rests on a band."""
+        tooltips = ALONE_TOOLTIPS if alone else TOOLTIPS
+        self._hover.update(
+            renderers=self._pinned.lines[:1] if alone else [self._dots],
+            tooltips=tooltips + [(curve.name, f"@centre{{{place}}}") for place, curve in enumerate(curves)],
+        )
+
+    def _list_what_is_drawn(self):
+        data, limit = self.bands.data, self.limit.data
+        drawn = {
+            "this design": self._line.visible,
+            "as in Table 1": np.isfinite(data["preset"]).any(),
+            "required maximum": np.isfinite(limit["limit"]).any(),
+            "exceeds it": np.isfinite(limit["failing"]).any(),
+        }
+        shown = [entry for words, entry in self._entries.items() if drawn[words]]
+        entries = [*self._entries.values(), *self._pinned.entries]
+        list_in(self._legend, entries, shown + self._pinned.shown_entries)
+
+
+NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
+
+NO_LEVELS.flags.writeable = False
+
+ALONE_TOOLTIPS = [("band", "@label Hz")]
+
+TOOLTIPS = [*ALONE_TOOLTIPS, ("this design", "@level_text"), ("as in Table 1", "@preset_text")]
+
+PIN_HOVER = """
+    const level = pins.data["pin_" + format][special_vars.index]
+    return (level < 0 ? "\u2212" : "+") + Math.abs(level).toFixed(1) + " dB"
+"""
+
+
+def _band_columns(levels, preset):
+    return {
+        "label": list(tig.BAND_LABELS),
+        "centre": tig.BAND_CENTRES,
+        "left": tig.BAND_EDGES[:-1],
+        "right": tig.BAND_EDGES[1:],
+        "level": levels,
+        "preset": preset,
+        "level_text": [formats.level_text(level) for level in levels],
+        "preset_text": [formats.level_text(level) if np.isfinite(level) else "–" for level in preset],
+    }
+
+
+def pin_columns(curves):
+    """Return the columns of a source that holds a level per band of each curve, NaN for those missing."""
+    missing = MOST_CURVES - len(curves)
+    levels = [curve.drawn for curve in curves] + [NO_LEVELS] * missing
+    columns = {f"pin_{place}": each for place, each in enumerate(levels)}
+    return {"label": list(tig.BAND_LABELS), "centre": tig.BAND_CENTRES, **columns}
+
+
+def _limit_columns(limit, levels):
+    # comparing with NaN is false, as it is meant to be
+    exceeded = levels - limit > TOLD_APART
+    return {
+        "centre": tig.BAND_CENTRES,
+        "left": tig.BAND_EDGES[:-1],
+        "right": tig.BAND_EDGES[1:],
+        "limit": limit,
+        "before": np.concatenate([[np.nan], limit[:-1]]),
+        "failing": np.where(exceeded, levels, np.nan),
+    }

@@ -1,0 +1,56 @@
+"""Numbers and names as text: the one place where figures are rounded for readers."""
+
+import math
+
+
+def frequency_text(frequency):
+    """Return a frequency [Hz] as a reader wants it: three figures, with its unit."""
+    decimals = max(0, 2 - math.floor(math.log10(frequency)))
+    return f"{frequency:.{decimals}f} Hz"
+
+
+def duration_text(seconds):
+    """Return a duration [s] in ms below one second, else in s."""
+    return f"{1000 * seconds:.0f} ms" if seconds < 0.9995 else f"{seconds:.1f} s"
+
+
+def level_text(level):
+    """Return a level [dB] with its sign and one decimal; a true minus, so that columns align."""
+    return f"{level:+.1f} dB".replace("-", "−")
+
+
+def signed_text(level):
+    """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
+    text = f"{level:+.1f}"
+    return "0.0" if float(text) == 0 else text.replace("-", "−")
+
+
+def plain_text(level):
+    """Return a level [dB] that is no difference for a column of a table: one decimal, no unit."""
+    return f"{level:.1f}".replace("-", "−")
+
+
+def slope_text(slope):
+    """Return a slope [dB per octave] with its sign, whole."""
+    return f"{slope:+.0f} dB per octave".replace("-", "−") if round(slope) else "level"
+
+
+LEAST_DIFFERENCE = 1e-6
+"""Differences of levels below this are not told apart [dB]."""
+
+
+def difference_text(difference):
+    """Return a small difference of levels [dB], greater than zero: one figure, or two decimals."""
+    decimals = max(2, -math.floor(math.log10(difference)))
+    return f"{difference:.{decimals}f} dB"
+
+
+def quantity_text(value):
+    """Return an input's value as it is typed: up to six figures, no trailing zeros."""
+    return f"{value:.6g}"
+
+
+def name_text(name, longest):
+    """Return a name that somebody typed as it is shown: one line of printable characters, cut at a length."""
+    words = "".join(letter if letter.isprintable() else " " for letter in name[: longest + 1])
+    return words if len(words) <= longest else words[: longest - 1] + "…"

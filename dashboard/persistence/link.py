@@ -1,0 +1,267 @@
+"""The address bar's codec: the whole design, how it is looked at and what is pinned, as a query string.
+
+All of a design is written, defaults too, so that a link reopens the same design in versions whose
+defaults are others. Numbers have six significant figures, as inputs have, in display units.
+
+The one rule: a link is hostile. Whatever it holds, decoding raises nothing and gives a design that the
+sliders can show; what was ignored or clamped is told in words that repeat nothing but numbers and the
+letters of a key.
+"""
+
+import math
+import re
+from dataclasses import dataclass
+from urllib.parse import urlencode
+
+from dashboard.fields import INPUTS, NUMBERS, six_figures
+from dashboard.formats import name_text, quantity_text
+from dashboard.session.inputs import DesignInputs, Presentation, preset_values
+from dashboard.session.pins import MOST, Pin, free_colour, free_name
+from dashboard.theme import DESIGN_COLOURS
+from trackig_core.names import LONGEST_NAME
+
+VERSION = "1"
+"""Version of the format; a link of another version is read as far as its keys are known."""
+
+LONGEST_NUMBER, LONGEST_VALUE, LONGEST_KEY = 32, 800, 24
+"""Characters that are read of a number, bytes of any value, and characters that are shown of a key."""
+
+MOST_PROBLEMS = 6
+"""Problems of a link that are told one by one."""
+
+SEPARATOR = "~"
+"""Stands between the parts of a pin; the name comes last, so that it may hold it."""
+
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+
+CHOICES = {
+    "preset": tuple(DesignInputs.param.preset.objects),
+    "two_stage": ("0", "1"),
+    "rail": tuple(DesignInputs.param.rail.objects),
+}
+"""What inputs that are no numbers may be in a link."""
+
+VIEW_CHOICES = {name: tuple(Presentation.param[name].objects) for name in ("summation", "reference")}
+"""What choices of view may be in a link, by key; a page that offers others adds them."""
+
+SERVED = ("theme", "bokeh-", "autoload")
+"""What keys begin with that belong to the server below the dashboard."""
+
+
+@dataclass(frozen=True)
+class Link:
+    """What a link holds.
+
+    Attributes
+    ----------
+    values : dict
+        All inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
+    view : dict
+        Choices of view that the link makes, by key.
+    pins : tuple of Pin
+        Pinned designs, of different names and colours; their keys count from 0.
+    base : int or None
+        Number of the pin from which differences are taken, counted from 0.
+    problems : tuple of str
+        What was ignored or clamped, in words for the user; no more than a handful.
+    """
+
+    values: dict
+    view: dict
+    pins: tuple[Pin, ...]
+    base: int | None
+    problems: tuple[str, ...]
+
+
+def encode(values, view=None, pins=(), base=None):
+    """Return the query string of a link, without the question mark.
+
+    Parameters
+    ----------
+    values : mapping
+        All inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
+    view : mapping, optional
+        Choices of view by key, such as those of :data:`VIEW_CHOICES`.
+    pins : iterable of Pin
+        Up to eight pinned designs.
+    base : int, optional
+        Number of the pin from which differences are taken, counted from 0.
+
+    Returns
+    -------
+    str
+        Letters, digits and signs that an address may hold; some 300 characters, and 100 to 600 a pin.
+    """
+    pairs = [("v", VERSION), *((name, _text(values[name])) for name in INPUTS), *(view or {}).items()]
+    pairs += [("pin", _pin_text(pin)) for pin in pins]
+    if base is not None:
+        pairs.append(("base", str(base + 1)))
+    return urlencode(pairs)
+
+
+def _text(value):
+    if isinstance(value, str):
+        return value
+    return str(int(value)) if isinstance(value, bool) else quantity_text(value)
+
+
+def _pin_text(pin):
+    values = (_text(pin.values[name]) for name in INPUTS)
+    return SEPARATOR.join((str(pin.colour), str(int(pin.shown)), *values, pin.name))
+
+
+def decode(arguments, view_choices=VIEW_CHOICES):
+    """Return what a link holds, whatever it holds.
+
+    Parameters
+    ----------
+    arguments : mapping of str to list of bytes
+        The query's arguments as the server hands them on.
+    view_choices : mapping of str to iterable of str
+        What the page offers, by key.
+
+    Returns
+    -------
+    Link
+        A design that the sliders can show, and words on what could not be read.
+    """
+    known = ("v", "pin", "base", *INPUTS, *view_choices)
+    problems = [
+        f"“{_key_text(key)}” is nothing that a link can set; it was ignored."
+        for key in arguments
+        if key not in known and not key.startswith(SERVED)
+    ]
+    given = {key: _first(arguments, key, problems) for key in known if arguments.get(key) and key != "pin"}
+    if given.get("v", VERSION) != VERSION:
+        problems.append("The link is of another version of trackig; what this one knows was opened.")
+    values = _values(given, "", problems)
+    view = {
+        key: given[key]
+        for key, allowed in view_choices.items()
+        if key in given and _is_allowed(key, given[key], allowed, "", problems)
+    }
+    pins, numbers = _pins(arguments.get("pin", ()), problems)
+    base = _base(given.get("base"), numbers, problems)
+    return Link(values, view, pins, base, _told(problems))
+
+
+def _key_text(key):
+    """Return a key as it may be shown: its letters, digits and hyphens, cut."""
+    return re.sub(r"[^A-Za-z0-9_-]", "?", key[:LONGEST_KEY]) + ("…" if len(key) > LONGEST_KEY else "")
+
+
+def _label(name):
+    """Return what an input or a choice is called on the page, without its unit."""
+    label = DesignInputs.param[name].label if name in INPUTS else name.capitalize()
+    return label.split(",")[0].split(":")[0]
+
+
+def _decoded(raw):
+    """Return a value as text; one that is too long as text that nothing can be read from."""
+    return raw.decode("utf-8", errors="replace") if len(raw) <= LONGEST_VALUE else ""
+
+
+def _first(arguments, key, problems):
+    """Return the first value of a key as text."""
+    if len({*arguments[key]}) > 1:
+        problems.append(f"{_label(key)} is in the link more than once; the first was taken.")
+    return _decoded(arguments[key][0])
+
+
+def _values(given, whose, problems):
+    """Return all inputs: those that are given and can be read, the others as in the preset.
+
+    Parameters
+    ----------
+    given : mapping of str to str
+        Texts by name; any may be missing.
+    whose : str
+        What the words on a problem begin with, such as ``"Pin 2: "``.
+    problems : list of str
+        Where those words go.
+    """
+    read = {
+        name: given[name]
+        for name, allowed in CHOICES.items()
+        if name in given and _is_allowed(name, given[name], allowed, whose, problems)
+    }
+    if "two_stage" in read:
+        read["two_stage"] = read["two_stage"] == "1"
+    values = preset_values(read.get("preset", DesignInputs.param.preset.default)) | read
+    for name in NUMBERS:
+        if name in given:
+            values[name] = _number(name, given[name], values[name], whose, problems)
+    return values
+
+
+def _is_allowed(name, text, allowed, whose, problems):
+    if text in allowed:
+        return True
+    problems.append(f"{whose}{_label(name)} is none of those on offer; it was ignored.")
+    return False
+
+
+def _number(name, text, otherwise, whose, problems):
+    """Return a number within its slider's range."""
+    low, high = DesignInputs.param[name].bounds
+    if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
+        problems.append(f"{whose}{_label(name)} is no number; {quantity_text(otherwise)} was taken.")
+        return otherwise
+    number = float(text)
+    clamped = min(max(number, low), high)
+    if clamped != number:
+        size = quantity_text(number) if math.isfinite(number) else "too large a number"
+        problems.append(
+            f"{whose}{_label(name)} is {size}, beyond {quantity_text(low)} to {quantity_text(high)}; "
+            f"{quantity_text(clamped)} was taken."
+        )
+    return six_figures(clamped)
+
+
+def _pins(raws, problems):
+    """Return the pins, and the numbers that they had in the link, counted from 1."""
+    pins, numbers = [], []
+    if len(raws) > MOST:
+        problems.append(f"The link has {len(raws)} pinned designs; {MOST} were taken.")
+    for number, raw in enumerate(raws[:MOST], start=1):
+        pin = _pin(_decoded(raw), pins, f"Pin {number}: ", problems)
+        if pin is not None:
+            pins.append(pin)
+            numbers.append(number)
+    return tuple(pins), numbers
+
+
+def _pin(text, before, whose, problems):
+    """Return a pin, or None if it cannot be read; its name and colour differ from those before it."""
+    parts = text.split(SEPARATOR, len(INPUTS) + 2)
+    given = dict(zip(INPUTS, parts[2:], strict=False))
+    if len(parts) != len(INPUTS) + 3 or any(given[key] not in allowed for key, allowed in CHOICES.items()):
+        problems.append(f"{whose}it cannot be read; it was ignored.")
+        return None
+    colour, shown, *_, name = parts
+    taken = {pin.colour for pin in before}
+    free = {str(index): index for index in range(len(DESIGN_COLOURS)) if index not in taken}
+    return Pin(
+        key=len(before),
+        name=free_name(name_text(name, LONGEST_NAME), before),
+        colour=free.get(colour, free_colour(before)),
+        values=_values(given, whose, problems),
+        shown=shown != "0",
+    )
+
+
+def _base(text, numbers, problems):
+    """Return the number, from 0, of the pin from which differences are taken, or None."""
+    if text is None:
+        return None
+    found = [index for index, number in enumerate(numbers) if text == str(number)]
+    if not found:
+        problems.append("The base of differences is no pinned design; it was ignored.")
+        return None
+    return found[0]
+
+
+def _told(problems):
+    """Return so many problems as a user reads, and how many more there are."""
+    more = len(problems) - MOST_PROBLEMS
+    return (*problems[:MOST_PROBLEMS], *([f"And {more} more of the kind."] if more > 0 else []))

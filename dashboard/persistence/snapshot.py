@@ -1,0 +1,116 @@
+"""All that a session holds, as a link and as a study, and back.
+
+The one rule: what is opened is checked as a whole before anything changes, and then replaces everything.
+"""
+
+import param
+
+import trackig_core as tig
+from dashboard.persistence import link, studies
+
+
+class Keeping(param.Parameterized):
+    """The parts of a session whose state is kept and shared.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        The design at hand.
+    presentation : Presentation
+        How insertion gain is reckoned.
+    pins : Pins
+        The pinned designs.
+    workshop : Workshop
+        Specification, source and the study's name.
+    tabs : iterable of str
+        Names of the page's tabs, in small letters; the first is open.
+    """
+
+    tab = param.Selector(objects=[""], doc="The tab that is open.")
+
+    def __init__(self, inputs, presentation, pins, workshop, tabs=("explore",)):
+        super().__init__()
+        self.inputs, self.presentation, self.pins, self.workshop = inputs, presentation, pins, workshop
+        self.param.tab.objects = list(tabs)
+        self.tab = self.param.tab.objects[0]
+
+    def watch(self, callback):
+        """Call back whenever anything changes that is kept."""
+        self.inputs.param.watch(callback, list(link.INPUTS))
+        self.presentation.param.watch(callback, ["summation", "reference"])
+        self.pins.param.watch(callback, ["pinned", "base", "alone"])
+        self.workshop.param.watch(callback, ["specification", "source", "title"])
+        self.param.watch(callback, "tab")
+
+    @property
+    def _view(self):
+        return {"summation": self.presentation.summation, "reference": self.presentation.reference}
+
+    @property
+    def _base(self):
+        """Number of the pin from which differences are taken, counted from 0, or None."""
+        keys = [pin.key for pin in self.pins.pinned]
+        return keys.index(self.pins.base) if self.pins.base in keys else None
+
+    def query(self):
+        """Return the query string of a link to what is on the page; it holds no specification or source."""
+        view = {**self._view, "alone": str(int(self.pins.alone)), "tab": self.tab}
+        return link.encode(self.inputs.to_values(), view, self.pins.pinned, self._base)
+
+    def study(self):
+        """Return everything as a study (trackig_core.Study)."""
+        return studies.to_study(
+            self.inputs.to_values(),
+            self._view,
+            self.pins.pinned,
+            self._base,
+            self.workshop.specification,
+            self.workshop.source,
+            self.workshop.title,
+        )
+
+    def follow(self, arguments):
+        """Set what a link holds, whatever it holds.
+
+        Parameters
+        ----------
+        arguments : mapping of str to list of bytes
+            The query's arguments as the server hands them on.
+
+        Returns
+        -------
+        tuple of str
+            What was ignored or clamped, in words for the user.
+        """
+        choices = {**link.VIEW_CHOICES, "alone": ("0", "1"), "tab": tuple(self.param.tab.objects)}
+        found = link.decode(arguments, choices)
+        view = dict(found.view)
+        self.tab = view.pop("tab", self.tab)
+        alone = view.pop("alone", "0") == "1"
+        self._set(found.values, found.pins, found.base, view)
+        self.pins.alone = alone and bool(found.pins)
+        return found.problems
+
+    def open(self, data):
+        """Replace everything by the study that a file holds.
+
+        Parameters
+        ----------
+        data : str or bytes
+            What the file holds.
+
+        Raises
+        ------
+        trackig_core.StudyError
+            If the file holds no study, or one that the page cannot show; then nothing has changed.
+        """
+        opened = studies.from_study(tig.Study.from_toml(data))
+        self._set(opened.values, opened.pins, opened.base, opened.view)
+        self.workshop.param.update(
+            specification=opened.specification, source=opened.source, title=opened.name
+        )
+
+    def _set(self, values, pins, base, view):
+        self.pins.replace_all(pins, base)
+        self.presentation.param.update(**view)
+        self.inputs.take(values)

@@ -1,0 +1,166 @@
+"""What the dashboard holds, as a study, and a study as what the dashboard holds.
+
+A study may hold more than sliders show: rails of one's own, springs as measured, numbers beyond a slider or
+of more figures. Numbers of sliders are in display units, those of a study in SI units.
+
+The one rule: nothing is rounded, clamped or dropped. A study that sliders cannot show exactly is refused as
+a whole, in words that name the design, the value and what sliders take; and what was saved opens as it was.
+"""
+
+from dataclasses import dataclass
+
+import trackig_core as tig
+from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
+from dashboard.formats import quantity_text
+from dashboard.session.inputs import DesignInputs, design_of, display_values, preset_values
+from dashboard.session.pins import Pin, own_colours
+from trackig_core.study.studies import THIS_DESIGN
+
+
+@dataclass(frozen=True)
+class Opened:
+    """What a study sets in the dashboard.
+
+    Attributes
+    ----------
+    values : dict
+        All inputs, by name of :data:`dashboard.fields.INPUTS` [display units], as DesignInputs takes them.
+    pins : tuple of Pin
+        Pinned designs, of different names and colours, in their order; their keys count from 0.
+    base : int or None
+        Number of the pin from which differences are taken, counted from 0, as Pins takes it.
+    view : dict
+        ``summation`` and ``reference``.
+    specification : trackig_core.Specification or None
+        What the designs have to meet.
+    source : trackig_core.SourceSpectrum or None
+        Levels on the reference track.
+    name : str
+        What the study is called.
+    """
+
+    values: dict
+    pins: tuple[Pin, ...]
+    base: int | None
+    view: dict
+    specification: tig.Specification | None
+    source: tig.SourceSpectrum | None
+    name: str
+
+
+def to_study(values, view=None, pins=(), base=None, specification=None, source=None, name=tig.Study.name):
+    """Return a study of what the dashboard holds.
+
+    Parameters
+    ----------
+    values : mapping
+        All inputs, by name of :data:`dashboard.fields.INPUTS`, as DesignInputs gives them [display units].
+    view : mapping, optional
+        ``summation`` and ``reference``; what is missing is as in the paper.
+    pins : iterable of Pin
+        Up to eight pinned designs.
+    base : int, optional
+        Number of the pin from which differences are taken, counted from 0.
+    specification : trackig_core.Specification, optional
+        What the designs have to meet.
+    source : trackig_core.SourceSpectrum, optional
+        Levels on the reference track.
+    name : str
+        What the study is called.
+
+    Returns
+    -------
+    trackig_core.Study
+        The study. Inputs that a single-stage track does not have are not kept.
+
+    Raises
+    ------
+    trackig_core.StudyError
+        If the name is not allowed.
+    trackig_core.DesignError
+        If the values do not make a track.
+    """
+    return tig.Study(
+        design=design_of(values),
+        pinned=[
+            tig.PinnedDesign(pin.name, pin.design, pin.colour, pin.shown, pin.values["preset"])
+            for pin in pins
+        ],
+        specification=specification,
+        source=source,
+        view=tig.View(**(view or {}), base=base),
+        name=name,
+        preset=values["preset"],
+    )
+
+
+def from_study(study):
+    """Return what a study sets in the dashboard.
+
+    Parameters
+    ----------
+    study : trackig_core.Study
+        The study. Where it says no preset, the one is taken that its design is, else the one on which the
+        dashboard opens; where pinned designs share a colour, the later ones get colours of their own.
+
+    Returns
+    -------
+    Opened
+        Values that sliders take, and that give exactly the study's designs.
+
+    Raises
+    ------
+    trackig_core.StudyError
+        If sliders cannot show one of the designs, or two pinned designs have one name.
+    """
+    values = _values(study.design, study.preset, THIS_DESIGN, "design")
+    pins = []
+    for number, (each, colour) in enumerate(
+        zip(study.pinned, own_colours(pinned.colour for pinned in study.pinned), strict=True)
+    ):
+        path = f"pinned[{number}]"
+        if any(each.name == pin.name for pin in pins):
+            raise tig.StudyError(f"two designs are called “{each.name}”; give each its own", f"{path}.name")
+        own = _values(each.design, each.preset, f"“{each.name}”", f"{path}.design")
+        pins.append(Pin(number, each.name, colour, own, each.shown))
+    return Opened(
+        values=values,
+        pins=tuple(pins),
+        base=study.view.base,
+        view={"summation": study.view.summation, "reference": study.view.reference},
+        specification=study.specification,
+        source=study.source,
+        name=study.name,
+    )
+
+
+def _values(design, preset, whose, path):
+    """Return the inputs that give a design, or raise a StudyError that names it and the path to it."""
+    if design.rail not in tig.RAILS.values():
+        known = ", ".join(tig.RAILS)
+        raise _refused(whose, path, "rail", f"{design.rail.name!r}, of its own values", known)
+    for field in NUMBERS:
+        if design.two_stage or field not in SECOND_STAGE:
+            _check(design, field, whose, path)
+    if preset is None:
+        same = (key for key, published in tig.PRESETS.items() if published == design)
+        preset = next(same, OPENING_PRESET)
+    return {**preset_values(preset), **display_values(design)}
+
+
+def _check(design, field, whose, path):
+    """Raise a StudyError unless a slider shows a number of a design exactly."""
+    value, (low, high) = getattr(design, field), DesignInputs.param[field].bounds
+    takes = f"one number from {quantity_text(low)} to {quantity_text(high)}"
+    if not isinstance(value, float):
+        raise _refused(whose, path, field, "measured over frequency", takes)
+    shown = to_display(field, value)
+    if not low <= shown <= high:
+        raise _refused(whose, path, field, quantity_text(shown), takes)
+    if to_si(field, shown) != value:
+        raise _refused(whose, path, field, f"{value!r} in SI units", f"six figures, such as {shown!r}")
+
+
+def _refused(whose, path, field, found, takes):
+    label = DesignInputs.param[field].label
+    return tig.StudyError(f"{whose}: “{label}” is {found}; the sidebar takes {takes}", f"{path}.{field}")

@@ -1,0 +1,1 @@
+"""What one session holds, as plain parameters: inputs, history, pinned designs, results."""

@@ -1,0 +1,215 @@
+"""What the user sets and what came of it, as plain parameters.
+
+:class:`DesignInputs` holds the design in display units (kN/mm, kg, m), :class:`Outcome` the last
+picture and how the solver fares. The one rule: units are converted here and nowhere else, and
+nothing here knows how it is shown.
+"""
+
+import param
+
+import trackig_core as tig
+from dashboard.fields import (
+    INPUTS,
+    NUMBERS,
+    OPENING_PRESET,
+    PHYSICAL,
+    PRESET_LABELS,
+    SECOND_STAGE,
+    six_figures,
+    to_display,
+    to_si,
+)
+
+
+def design_of(values):
+    """Return the design of display values, in SI units.
+
+    Parameters
+    ----------
+    values : mapping
+        Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused.
+
+    Returns
+    -------
+    trackig_core.TrackDesign
+        The design; equal values give equal designs, whatever path led there.
+
+    Raises
+    ------
+    trackig_core.DesignError
+        If the values do not make a track.
+    """
+    names = [name for name in NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
+    return tig.TrackDesign(
+        rail=tig.RAILS[values["rail"]], **{name: to_si(name, values[name]) for name in names}
+    )
+
+
+def display_values(design):
+    """Return the inputs that give a design, by name; a single-stage design leaves the second stage out.
+
+    Parameters
+    ----------
+    design : trackig_core.TrackDesign
+        A design whose rail is one of ``trackig_core.RAILS``.
+
+    Returns
+    -------
+    dict
+        Values for :class:`DesignInputs` [display units].
+    """
+    rail = next(key for key, rail in tig.RAILS.items() if rail == design.rail)
+    numbers = {name: getattr(design, name) for name in NUMBERS}
+    return {
+        "two_stage": design.two_stage,
+        "rail": rail,
+        **{name: to_display(name, value) for name, value in numbers.items() if value is not None},
+    }
+
+
+def _number(name, low, high, step, label):
+    opening = to_display(name, getattr(tig.PRESETS[OPENING_PRESET], name))
+    return param.Number(default=opening, bounds=(low, high), step=step, label=label)
+
+
+def preset_values(key):
+    """Return all inputs as they are when a preset has been chosen on a fresh page.
+
+    Parameters
+    ----------
+    key : str
+        Key of ``trackig_core.PRESETS``.
+
+    Returns
+    -------
+    dict
+        Values by name of :data:`INPUTS` [display units]; what a single-stage preset lacks is as it opens.
+    """
+    opening = {name: DesignInputs.param[name].default for name in INPUTS}
+    return {**opening, "preset": key, **display_values(tig.PRESETS[key])}
+
+
+class DesignInputs(param.Parameterized):
+    """A track design in display units, and the preset from which it departs."""
+
+    preset = param.Selector(
+        default=OPENING_PRESET,
+        objects={PRESET_LABELS.get(key, key): key for key in tig.PRESETS},
+        label="Track of Table 1",
+    )
+    two_stage = param.Boolean(default=True, label="Two-stage: blocks in boots")
+    pad_stiffness = _number("pad_stiffness", 10, 2000, 1, "Pad stiffness, kN/mm")
+    pad_loss_factor = _number("pad_loss_factor", 0.01, 0.5, 0.01, "Pad loss factor")
+    block_mass = _number("block_mass", 10, 500, 1, "Block mass, kg")
+    boot_stiffness = _number("boot_stiffness", 2, 200, 0.5, "Boot stiffness, kN/mm")
+    boot_loss_factor = _number("boot_loss_factor", 0.01, 0.5, 0.01, "Boot loss factor")
+    fastener_spacing = _number("fastener_spacing", 0.2, 1.0, 0.01, "Fastener spacing, m")
+    rail = param.Selector(
+        default="60",
+        objects={"60 (paper: 60 kg/m)" if key == "60" else key: key for key in tig.RAILS},
+        label="Rail section",
+    )
+    wheel_mass = _number("wheel_mass", 200, 1500, 10, "Unsprung wheel mass, kg")
+    contact_stiffness = _number("contact_stiffness", 200, 5000, 10, "Contact stiffness, kN/mm")
+    modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
+
+    _taking = False
+
+    @param.depends("preset", watch=True)
+    def revert(self):
+        """Set every input to the preset's value; inputs that the preset does not have keep theirs."""
+        if not self._taking:
+            self.param.update(**display_values(self.preset_design))
+        self._note_modified()
+
+    @property
+    def preset_design(self):
+        """The preset as published."""
+        return tig.PRESETS[self.preset]
+
+    def to_design(self):
+        """Return the design in SI units.
+
+        Returns
+        -------
+        trackig_core.TrackDesign
+            The design; equal inputs give equal designs, whatever path led there.
+
+        Raises
+        ------
+        trackig_core.DesignError
+            If the inputs do not make a track.
+        """
+        return design_of(self.to_values())
+
+    def to_values(self):
+        """Return every input that a user sets, by name, float dust taken off: what :meth:`take` takes."""
+        values = {name: getattr(self, name) for name in INPUTS}
+        return {**values, **{name: six_figures(values[name]) for name in NUMBERS}}
+
+    def take(self, values):
+        """Set several inputs as one change, the preset among them without reverting to it.
+
+        Parameters
+        ----------
+        values : mapping
+            Values by name of :data:`INPUTS`, such as :meth:`to_values` gave [display units].
+
+        Raises
+        ------
+        ValueError
+            If a value is not allowed; then nothing has changed.
+        """
+        check_values(values)
+        self._taking = True
+        try:
+            self.param.update(**values)
+        finally:
+            self._taking = False
+
+    @param.depends(*PHYSICAL, watch=True)
+    def _note_modified(self):
+        self.modified = self.to_design() != self.preset_design
+
+
+def check_values(values):
+    """Raise a ValueError that says which, unless inputs can hold the values [display units]."""
+    DesignInputs(**values)
+
+
+class Presentation(param.Parameterized):
+    """How insertion gain is reckoned from a spectrum: a matter of looking, which needs no new solution."""
+
+    summation = param.Selector(
+        default="energy",
+        objects={"Summed energy (paper)": "energy", "Coherent force": "coherent"},
+        label="Over the supports",
+    )
+    reference = param.Selector(
+        default="line",
+        objects={"Straight line (paper)": "line", "Rigid track": "rigid"},
+        label="Against",
+    )
+
+    def levels(self, solution, spectrum=None):
+        """Return the insertion gain of a solution, as chosen.
+
+        Parameters
+        ----------
+        solution : trackig_core.Solution
+            The solution.
+        spectrum : trackig_core.ForceSpectrum, optional
+            Another spectrum of the same design, in place of the solution's own.
+
+        Returns
+        -------
+        numpy.ndarray (21,)
+            Insertion gain [dB].
+        """
+        return tig.insertion_gain(
+            solution.spectrum if spectrum is None else spectrum,
+            solution.design,
+            solution.natural_frequencies.loaded_track,
+            reference=self.reference,
+            summation=self.summation,
+        ).levels

@@ -1,0 +1,100 @@
+"""What was computed of the current design: the last picture, and how the solver fares."""
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+import param
+
+import trackig_core as tig
+from dashboard.fields import KILONEWTON
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What the views show of one solution: all of it but the force under every single support.
+
+    Attributes
+    ----------
+    solution : trackig_core.Solution
+        The solution without its time history, which is a hundred times larger than the rest.
+    time : numpy.ndarray (samples,) or None [s]
+        Time since the step in contact compression; None, as are the next three, when nothing was stepped
+        in time.
+    loaded_support_force, total_force : numpy.ndarray (samples,) or None [kN]
+        Force into the ground under the wheel, and summed over all supports.
+    step : float or None [mm]
+        Height of the step.
+    seconds : float [s]
+        How long the solver took.
+    """
+
+    solution: tig.Solution
+    time: np.ndarray | None
+    loaded_support_force: np.ndarray | None
+    total_force: np.ndarray | None
+    step: float | None
+    seconds: float
+
+    @classmethod
+    def of(cls, solution, seconds):
+        """Return what is shown of a solution that took some time [s]."""
+        if solution.history is None:
+            return cls(solution, None, None, None, None, seconds)
+        return cls(
+            solution=dataclasses.replace(solution, history=None),
+            time=solution.time,
+            loaded_support_force=solution.loaded_support_force / KILONEWTON,
+            total_force=solution.total_force / KILONEWTON,
+            step=1000 * solution.history.step,
+            seconds=seconds,
+        )
+
+    @property
+    def design(self):
+        """The design that was solved."""
+        return self.solution.design
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """A picture, and what theory says of it.
+
+    Attributes
+    ----------
+    picture : Picture
+        What was checked.
+    theory : trackig_core.Verification or None
+        Exact answers and convergence studies; None if there are none.
+    problem : str
+        Why there are none, else empty.
+    """
+
+    picture: Picture
+    theory: tig.Verification | None
+    problem: str = ""
+
+
+class Outcome(param.Parameterized):
+    """The last good picture, how the solver fares, and what theory says of the picture."""
+
+    picture = param.ClassSelector(class_=Picture, default=None, allow_None=True, doc="Last good solution.")
+    preset_picture = param.ClassSelector(
+        class_=Picture, default=None, allow_None=True, doc="The preset's, while the design is modified."
+    )
+    busy = param.Boolean(default=False, doc="Whether a solution is awaited.")
+    compiling = param.Boolean(default=False, doc="Whether the solver is still being compiled.")
+    progress = param.Number(
+        default=None, bounds=(0, 1), allow_None=True, doc="Part of a long run that is done; None when short."
+    )
+    from_cache = param.Boolean(default=False, doc="Whether the picture was there already.")
+    checking = param.Boolean(default=False, doc="Whether anybody looks at the checks.")
+    checked = param.ClassSelector(
+        class_=Checked, default=None, allow_None=True, doc="The picture that was last held against theory."
+    )
+    problem = param.String(default="", doc="Why the picture is not that of the inputs; empty when it is.")
+
+    @property
+    def stale(self):
+        """Whether the picture is that of earlier inputs, and will be for a while."""
+        return bool(self.problem) or self.progress is not None

@@ -1,0 +1,1 @@
+"""Lessons, and the explanations that the Learn tab draws."""

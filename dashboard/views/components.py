@@ -1,0 +1,46 @@
+"""What several views are made of: panels, captions, panes, swatches."""
+
+import panel as pn
+import panel_material_ui as pmui
+
+from dashboard import theme
+
+HAND_NAME = "this\N{NO-BREAK SPACE}design"
+"""What the design at hand is called; no pin can be called so, since names hold no such space."""
+
+HAND = 0
+"""Stands for the design at hand where keys of pins are chosen from, which count from 1."""
+
+PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": theme.PANEL}
+"""What a panel of the page is made of."""
+
+
+def caption(title, words):
+    """Return a panel's heading."""
+    return pmui.Row(
+        pmui.Typography(title, variant="subtitle1", sx=theme.PANEL_TITLE, margin=0),
+        pmui.Typography(words, variant="body2", color="text.secondary", margin=(3, 0, 0, 10)),
+        margin=(4, 0, 0, 12),
+    )
+
+
+def bokeh_pane(model):
+    """Return a figure as wide as its place."""
+    return pn.pane.Bokeh(model, sizing_mode="stretch_width", margin=0)
+
+
+def gain_axis(presentation):
+    """Return what the insertion gain's axis is called, the choice named in it."""
+    return f"IG, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
+
+
+SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}
+
+
+def swatch_svg(colour, dash):
+    """Return a short piece of a design's line, as it is drawn in every plot."""
+    dashes = " ".join(str(length) for length in dash) or "none"
+    return (
+        '<svg class="swatch" width="34" height="12" viewBox="0 0 34 12" aria-hidden="true">'
+        f'<path d="M1 6H33" stroke="{colour}" stroke-width="4" stroke-dasharray="{dashes}"/></svg>'
+    )

@@ -1,0 +1,122 @@
+"""What passes between session and browser: the link follows, files are bounded, messages are hostile."""
+
+import asyncio
+
+import pytest
+
+import trackig_core as tig
+from dashboard.client import exchange as exchange_module
+from dashboard.client.exchange import Exchange, opening, saving
+
+LIMITS = tig.Specification([(63, -3.0)])
+
+
+@pytest.fixture
+def exchange(session):
+    return Exchange(session.keeping)
+
+
+def heed(exchange, message):
+    """Have a message heeded where changes are followed: in a loop, as a session has."""
+
+    async def run():
+        exchange.heed(message)
+
+    asyncio.run(run())
+
+
+@pytest.fixture
+def sent(exchange, monkeypatch):
+    messages = []
+    monkeypatch.setattr(exchange, "_send_msg", messages.append)
+    return messages
+
+
+@pytest.fixture
+def told(monkeypatch):
+    words = []
+    monkeypatch.setattr(exchange_module, "tell", lambda kind, text: words.append((kind, text)))
+    return words
+
+
+def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatch):
+    monkeypatch.setattr(exchange_module, "REST", 0.05)
+
+    async def run():
+        exchange = Exchange(session.keeping)
+        assert exchange.kept == [session.keeping.query(), session.keeping.study().to_toml()]
+        noted = []
+        exchange.param.watch(lambda event: noted.append(event.new), "kept")
+        for stiffness in range(30, 40):
+            session.inputs.boot_stiffness = stiffness
+            await asyncio.sleep(0.005)
+        session.workshop.specification = LIMITS
+        assert noted == []
+        await asyncio.sleep(0.3)
+        assert noted == [[session.keeping.query(), session.keeping.study().to_toml()]]
+        assert "boot_stiffness=39" in noted[0][0]
+
+    asyncio.run(run())
+
+
+def test_what_a_browser_remembers_is_restored(session, exchange, sent, picture):
+    other = type(session)(picture)
+    other.workshop.specification = LIMITS
+    other.pin("slab-track", "Slab")
+    heed(exchange, {"kind": "restore", "data": other.keeping.study().to_toml()})
+    assert session.workshop.specification == LIMITS
+    assert [pin.name for pin in session.pins.pinned] == ["Slab"]
+    assert exchange.kept == [session.keeping.query(), session.keeping.study().to_toml()]
+    assert sent == [{"kind": "keep"}]
+
+
+def test_a_memory_that_is_no_study_changes_nothing_and_is_told(session, exchange, sent, told):
+    before = session.keeping.study()
+    exchange.heed({"kind": "restore", "data": "<script>alert(1)</script>"})
+    assert session.keeping.study() == before
+    assert told == [("warning", exchange_module.NOT_RESTORED)]
+    assert sent == [{"kind": "keep"}]
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        "restore",
+        7,
+        [],
+        {},
+        {"kind": "restore"},
+        {"kind": "restore", "data": 7},
+        {"kind": "study", "data": "text where bytes are due"},
+        {"kind": "specification"},
+        {"kind": "__class__", "data": b""},
+        {"kind": "show", "data": "no_such_figure"},
+        {"kind": "show", "data": ["insertion_gain_figure"]},
+        {"kind": "back"},
+    ],
+)
+def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
+    opened = []
+    exchange.on_file("study", opened.append)
+    before = session.keeping.query()
+    exchange.heed(message)
+    assert (opened, sent, session.keeping.query()) == ([], [], before)
+
+
+def test_a_plot_in_another_tab_is_shown_and_left_again(session, exchange):
+    tabs = []
+    session.keeping.param.watch(lambda event: tabs.append(event.new), "tab")
+
+    async def run():
+        session.keeping.tab = "keep"
+        exchange.heed({"kind": "show", "data": "insertion_gain_figure"})
+        exchange.heed({"kind": "back"})
+
+    asyncio.run(run())
+    assert tabs == ["keep", "explore", "keep"]
+
+
+def test_scripts_are_made_of_quoted_words():
+    assert opening("source") == f'window.trackig.choose("source", ".csv,.txt,.tsv", {64 * 1024})'
+    assert saving("x", "svg", 'a"b') == 'window.trackig.savePlot("x", "svg", "a\\"b")'

@@ -1,0 +1,351 @@
+"""Figures as plain data: what stands in their sources, and when axes move."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from bokeh.events import RangesUpdate
+from bokeh.models import HoverTool
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import trackig_core as tig
+from dashboard import formats, theme
+from dashboard.figures.axes import nice_step, settled_range
+from dashboard.figures.force import POINTS_BEYOND, POINTS_IN_VIEW, TIME_AXIS, ForceFigure, outline, rungs
+from dashboard.figures.insertion_gain import InsertionGainFigure
+from dashboard.figures.legends import MOST_CURVES
+from dashboard.session.curves import Curve
+
+# the least floats that there are would be lost when divided by a step
+ENDS = st.tuples(st.floats(-200, 200, allow_subnormal=False), st.floats(0.1, 200)).map(
+    lambda pair: (pair[0], pair[0] + pair[1])
+)
+
+
+@given(current=ENDS, data=ENDS)
+def test_axes_always_hold_the_data(current, data):
+    low, high = settled_range(current, *data, step=5)
+    assert low <= data[0]
+    assert data[1] <= high
+
+
+@given(current=ENDS, data=ENDS)
+def test_axes_settle_at_once(current, data):
+    settled = settled_range(current, *data, step=5)
+    assert settled_range(settled, *data, step=5) == settled
+
+
+def test_axes_stay_put_while_the_data_fill_half_of_them():
+    assert settled_range((-40, 20), -21, 9, step=5) == (-40, 20)
+
+
+def test_axes_grow_when_data_would_leave():
+    assert settled_range((-40, 20), -41, 9, step=5) == (-45, 10)
+
+
+def test_axes_shrink_when_the_data_fill_less_than_half():
+    assert settled_range((-100, 20), -20, 9, step=5) == (-20, 10)
+
+
+@pytest.mark.parametrize(("span", "step"), [(10, 1), (11, 2), (25, 5), (60, 10), (0.3, 0.05), (170, 20)])
+def test_steps_are_one_two_or_five(span, step):
+    assert nice_step(span) == pytest.approx(step)
+
+
+@given(low=st.floats(-1e3, -1e-3), high=st.floats(1e-3, 1e3))
+def test_rungs_hold_the_data_with_room_for_both_signs(low, high):
+    bottom, top, step = rungs(low, high)
+    assert bottom <= low * (1 - 1e-12)
+    assert high * (1 - 1e-12) <= top
+    assert bottom / step == pytest.approx(round(bottom / step))
+    assert top / step == pytest.approx(round(top / step))
+
+
+def test_the_force_axis_moves_a_few_times_while_a_peak_grows_tenfold(picture):
+    force, ends = ForceFigure(), []
+    shown = picture("booted-block-low-mass")
+    for factor in np.geomspace(1, 10, 40):
+        force.show(
+            dataclasses.replace(
+                shown,
+                total_force=factor * shown.total_force,
+                loaded_support_force=factor * shown.loaded_support_force,
+            )
+        )
+        ends.append((force.model.y_range.start, force.model.y_range.end))
+        assert ends[-1][0] <= factor * shown.total_force.min()
+        assert factor * shown.total_force.max() <= ends[-1][1]
+    assert len(set(ends)) <= 7
+
+
+@pytest.fixture
+def gain():
+    return InsertionGainFigure()
+
+
+def changed(picture, **frequencies):
+    """Return a picture with other natural frequencies."""
+    natural = dataclasses.replace(picture.solution.natural_frequencies, **frequencies)
+    return dataclasses.replace(
+        picture, solution=dataclasses.replace(picture.solution, natural_frequencies=natural)
+    )
+
+
+def draw(gain, picture, preset=None, louder=0.0):
+    """Draw a picture's insertion gain, and that of a preset behind it."""
+    solution = picture.solution
+    behind = None if preset is None else preset.solution.insertion_gain
+    gain.show(solution.insertion_gain + louder, behind, solution.natural_frequencies)
+
+
+def listed(figure):
+    """Return what the legend lists."""
+    return [item.label.value for item in figure.model.legend[0].items if item.visible]
+
+
+@pytest.mark.parametrize("preset", ["slab-track", "booted-block-low-mass"])
+def test_the_curve_is_the_solution(gain, picture, preset):
+    draw(gain, picture(preset))
+    data = gain.bands.data
+    np.testing.assert_array_equal(data["level"], picture(preset).solution.insertion_gain)
+    np.testing.assert_array_equal(data["centre"], tig.BAND_CENTRES)
+    np.testing.assert_array_equal([*data["left"], data["right"][-1]], tig.BAND_EDGES)
+    assert tuple(data["label"]) == tig.BAND_LABELS
+    assert np.isnan(data["preset"]).all()
+
+
+def test_the_ghost_is_the_preset(gain, picture):
+    draw(gain, picture("slab-track"), picture("booted-sleeper"))
+    ghost = picture("booted-sleeper").solution.insertion_gain
+    np.testing.assert_array_equal(gain.bands.data["preset"], ghost)
+    assert listed(gain) == ["this design", "as in Table 1"]
+    draw(gain, picture("slab-track"))
+    assert listed(gain) == ["this design"]
+
+
+def test_bands_carry_nominal_labels(gain):
+    axis = gain.model.xaxis[0]
+    assert [axis.major_label_overrides[tick] for tick in axis.ticker.ticks] == list(tig.BAND_LABELS)
+
+
+def test_hover_tells_band_and_value(gain, picture):
+    draw(gain, picture("booted-block-low-mass"))
+    (hover,) = gain.model.select({"type": HoverTool})
+    assert [field for _, field in hover.tooltips] == ["@label Hz", "@level_text", "@preset_text"]
+    shown = [float(text.removesuffix(" dB").replace("−", "-")) for text in gain.bands.data["level_text"]]
+    np.testing.assert_allclose(shown, gain.bands.data["level"], atol=0.05001)
+
+
+def marker(gain, name):
+    return gain.model.select_one({"name": name}), gain.model.select_one({"name": f"{name}_label"})
+
+
+def test_markers_stand_at_the_natural_frequencies(gain, picture):
+    draw(gain, picture("booted-block-low-mass"))
+    natural = picture("booted-block-low-mass").solution.natural_frequencies
+    for name, frequency in (("loaded_track", natural.loaded_track), ("coupled_block", natural.coupled_block)):
+        line, label = marker(gain, name)
+        assert line.visible
+        assert line.location == label.x == frequency
+    assert marker(gain, "loaded_track")[1].text == f"loaded track {natural.loaded_track:.1f} Hz"
+
+
+def test_a_single_stage_track_has_no_block_to_mark(gain, picture):
+    draw(gain, picture("booted-block-low-mass"))
+    draw(gain, picture("slab-track"))
+    line, label = marker(gain, "coupled_block")
+    assert not line.visible
+    assert not label.text.strip()
+
+
+def test_a_frequency_beyond_the_axis_is_told_at_its_end(gain, picture):
+    draw(gain, changed(picture("booted-block-low-mass"), coupled_block=2251.0))
+    line, label = marker(gain, "coupled_block")
+    assert not line.visible
+    assert label.x == tig.BAND_EDGES[-1]
+    assert (label.text, label.text_align) == ("coupled block 2251 Hz →", "right")
+
+
+def test_a_label_near_the_right_end_stands_left_of_its_line(gain, picture):
+    draw(gain, changed(picture("booted-block-low-mass"), coupled_block=400.0, loaded_track=30.0))
+    assert marker(gain, "coupled_block")[1].text_align == "right"
+    assert marker(gain, "loaded_track")[1].text_align == "left"
+
+
+def test_the_level_axis_holds_the_curve_and_then_stays(gain, picture):
+    draw(gain, picture("booted-block-low-mass"))
+    ends = (gain.model.y_range.start, gain.model.y_range.end)
+    assert ends[0] < gain.bands.data["level"].min()
+    assert gain.bands.data["level"].max() < ends[1]
+    draw(gain, picture("booted-block-low-mass"), louder=2.0)
+    assert (gain.model.y_range.start, gain.model.y_range.end) == ends
+
+
+def test_a_zoomed_axis_is_left_alone(gain, picture):
+    draw(gain, picture("slab-track"))
+    gain.model.y_range.update(start=-5, end=5)
+    draw(gain, picture("booted-block-high-mass"))
+    assert (gain.model.y_range.start, gain.model.y_range.end) == (-5, 5)
+    assert gain.model.y_range.reset_start < gain.bands.data["level"].min()
+
+
+def test_the_forces_are_drawn_in_kilonewton(picture):
+    force = ForceFigure()
+    shown = picture("booted-block-low-mass")
+    force.show(shown)
+    solution = tig.solve(tig.PRESETS["booted-block-low-mass"])
+    data = force.samples.data
+    at = np.searchsorted(solution.time, data["time"].astype(float) - 1e-6)
+    np.testing.assert_allclose(data["time"], solution.time[at], atol=1e-6)
+    for name, expected in (
+        ("total", solution.total_force / 1000),
+        ("loaded_support", solution.loaded_support_force / 1000),
+    ):
+        np.testing.assert_allclose(data[name], expected[at], atol=1e-6 * np.abs(expected).max())
+    assert force.model.y_range.start <= shown.total_force.min()
+    assert shown.total_force.max() <= force.model.y_range.end
+
+
+def test_what_is_in_view_is_sent_whole_and_of_the_rest_an_outline(picture):
+    force = ForceFigure()
+    shown = picture("booted-block-low-mass")
+    force.show(shown)
+    in_view = (shown.time >= TIME_AXIS[0]) & (shown.time <= TIME_AXIS[1])
+    sent = force.samples.data["time"]
+    assert np.count_nonzero((sent >= TIME_AXIS[0]) & (sent <= TIME_AXIS[1])) >= np.count_nonzero(in_view) - 1
+    assert sent.size < shown.time.size / 4
+    assert sent[[0, -1]] == pytest.approx(shown.time[[0, -1]], abs=1e-6)
+
+
+def test_a_move_along_time_sends_what_comes_into_view(picture):
+    force = ForceFigure()
+    shown = picture("slab-track")
+    force.show(shown)
+    force.model._trigger_event(RangesUpdate(force.model, x0=1.0, x1=1.2, y0=0, y1=1))
+    sent = force.samples.data["time"]
+    expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
+    assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
+
+
+@given(st.integers(3, 30_000), st.floats(-1, 9), st.floats(0.01, 9), st.integers(0, 10_000))
+@settings(max_examples=50, deadline=None)
+def test_an_outline_keeps_every_envelope_and_is_bounded(samples, start, width, seed):
+    time = np.arange(samples) / 4096
+    curves = [np.random.default_rng([seed, k]).normal(size=samples) for k in range(2)]
+    kept = outline(time, curves, start, start + width)
+    assert (np.diff(kept) > 0).all()
+    assert kept.size <= 2 * (2 * POINTS_BEYOND + POINTS_IN_VIEW) + 2
+    first, last = np.searchsorted(time, [start, start + width])
+    for begin, stop, points in ((0, first, POINTS_BEYOND), (first, last, POINTS_IN_VIEW)):
+        if stop - begin > points:
+            for curve in curves:
+                some = kept[(kept >= begin) & (kept < stop)]
+                assert curve[some].max() == curve[begin:stop].max()
+                assert curve[some].min() == curve[begin:stop].min()
+
+
+def test_both_forces_have_a_name_and_a_hover():
+    force = ForceFigure()
+    names = [item.label.value for item in force.model.legend[0].items if item.visible]
+    assert names == ["all supports", "support under the wheel"]
+    assert len(force.model.select({"type": HoverTool})) == len(names)
+
+
+def curve(picture, preset, name):
+    """Return a pinned design's curve of insertion gain."""
+    return Curve(name, picture(preset).solution.insertion_gain, theme.DESIGN_COLOURS[0], (3, 3))
+
+
+MARKUP = "<img src=x onerror=console.error(1)>"
+
+
+def test_pinned_curves_are_drawn_and_named(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    curves = (curve(picture, "slab-track", "a"), curve(picture, "booted-sleeper", MARKUP))
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves)
+    for place, each in enumerate(curves):
+        np.testing.assert_array_equal(gain.pins.data[f"pin_{place}"], each.drawn)
+    assert np.isnan(gain.pins.data["pin_2"]).all()
+    assert listed(gain) == ["this design", "a", formats.name_text(MARKUP, theme.LEGEND_NAME)]
+    (hover,) = gain.model.select({"type": HoverTool})
+    assert [name for name, _ in hover.tooltips][-2:] == ["a", MARKUP]
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies)
+    assert listed(gain) == ["this design"]
+    assert np.isnan(gain.pins.data["pin_0"]).all()
+
+
+def test_all_pinned_curves_are_seen(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    high = Curve("loud", solution.insertion_gain + 40, theme.DESIGN_COLOURS[0], ())
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, (high,))
+    assert gain.model.y_range.end >= high.drawn.max()
+
+
+def limits(**levels):
+    """Return a limit by nominal band, NaN elsewhere."""
+    return np.array([levels.get(f"at_{label.replace('.', '_')}", np.nan) for label in tig.BAND_LABELS])
+
+
+def test_a_limit_is_drawn_where_there_is_one_and_failing_bands_are_marked(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    levels = solution.insertion_gain
+    bands = {label: tig.BAND_LABELS.index(label) for label in ("40", "50", "100")}
+    limit = limits(at_40=levels[bands["40"]] - 3, at_50=levels[bands["50"]] + 1, at_100=levels[bands["100"]])
+    gain.show(levels, None, solution.natural_frequencies, limit=limit)
+    data = gain.limit.data
+    np.testing.assert_array_equal(data["limit"], limit)
+    assert data["before"][bands["50"]] == limit[bands["40"]]
+    assert np.isnan(data["before"][bands["40"]])
+    assert list(np.flatnonzero(np.isfinite(data["failing"]))) == [bands["40"]]
+    assert data["failing"][bands["40"]] == levels[bands["40"]]
+    assert listed(gain) == ["this design", "required maximum", "exceeds it"]
+    gain.show(levels, None, solution.natural_frequencies)
+    assert listed(gain) == ["this design"]
+
+
+def test_curves_alone_leave_the_design_at_hand_out(gain, picture):
+    solution = picture("booted-block-low-mass").solution
+    curves = (curve(picture, "slab-track", "a"),)
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves, alone=True)
+    assert listed(gain) == ["a"]
+    assert not marker(gain, "loaded_track")[0].visible
+    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves)
+    assert listed(gain) == ["this design", "a"]
+
+
+def test_pinned_forces_are_drawn_and_follow_a_zoom(picture):
+    force = ForceFigure()
+    pinned = (Curve("slab", picture("slab-track"), theme.DESIGN_COLOURS[0], ()),)
+    force.show(picture("booted-block-low-mass"), pinned)
+    data, shown = force.pins[0].data, picture("slab-track")
+    at = np.searchsorted(shown.time, data["time"].astype(float) - 1e-6)
+    np.testing.assert_allclose(data["total"], shown.total_force[at], rtol=1e-5, atol=1e-6)
+    assert listed(force) == ["all supports", "support under the wheel", "slab"]
+    assert force.model.y_range.end >= shown.total_force.max()
+    force.model._trigger_event(RangesUpdate(force.model, x0=1.0, x1=1.2, y0=0, y1=1))
+    sent = force.pins[0].data["time"]
+    expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
+    assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
+    force.show(picture("booted-block-low-mass"))
+    assert not len(force.pins[0].data["time"])
+
+
+def test_a_frame_sends_nothing_of_the_pins(gain, picture):
+    force, shown = ForceFigure(), picture("booted-block-low-mass")
+    natural = shown.solution.natural_frequencies
+    gains = tuple(curve(picture, "slab-track", str(place)) for place in range(MOST_CURVES))
+    forces = tuple(each._replace(drawn=picture("slab-track")) for each in gains)
+    gain.show(shown.solution.insertion_gain, None, natural, gains)
+    force.show(shown, forces)
+    sources = (gain.pins, *force.pins)
+    sent = [source.data for source in sources]
+    gain.show(shown.solution.insertion_gain + 1, None, natural, gains)
+    force.show(shown, forces)
+    assert all(source.data is before for source, before in zip(sources, sent, strict=True))
+
+
+def test_every_figure_has_a_name_for_screen_readers(gain):
+    for figure in (gain, ForceFigure()):
+        assert figure.model.html_attributes["role"] == "figure"
+        assert len(figure.model.html_attributes["aria-label"]) > 10

@@ -1,0 +1,85 @@
+"""The moving drawing: what the browser is sent is the film itself, and its first instant is drawn."""
+
+import numpy as np
+import pytest
+
+import trackig_core as tig
+from dashboard.figures import motion as figures
+from dashboard.figures.motion import FilmPlayer, ShapePlayer
+
+BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
+
+
+@pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two stages", "one stage"])
+def test_a_film_is_sent_whole_and_bounded(design):
+    player, motion = FilmPlayer(), tig.film(design)
+    player.show(motion)
+    sent = player.film.data
+    np.testing.assert_allclose(sent["time"], 1000 * motion.time)
+    np.testing.assert_allclose(sent["wheel"], 1e6 * motion.wheel, rtol=1e-6)
+    for element in (0, 5, 36):
+        np.testing.assert_allclose(sent[f"rail_{element}"], 1e6 * motion.rail[:, element], rtol=1e-6)
+    if design.two_stage:
+        np.testing.assert_allclose(sent["block_12"], 1e6 * motion.block[:, 12], rtol=1e-6)
+    assert ("block_0" in sent) == design.two_stage
+    assert sum(np.asarray(column).nbytes for column in sent.values()) < 300_000
+    assert (player.slider.start, player.slider.end) == pytest.approx((sent["time"][0], sent["time"][-1]))
+
+
+@pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two stages", "one stage"])
+def test_the_first_instant_is_drawn_to_scale(design):
+    player, motion = FilmPlayer(), tig.film(design)
+    player.show(motion)
+    view, at = player.view, np.argmin(np.abs(motion.time))
+    scale = view.facts.data["scale"][0]
+    height, supports, wheel = view.rail.data["y"], view.supports.data, view.wheel.data
+    np.testing.assert_allclose(-height[36:] / scale, 1e6 * motion.rail[at], atol=1e-9)
+    np.testing.assert_array_equal(height, height[::-1])
+    np.testing.assert_array_equal(supports["rail"], height[::3])
+    assert (figures.WHEEL_AT - wheel["y"][0]) / scale == pytest.approx(1e6 * motion.wheel[at])
+    assert wheel["rail"][0] == height[36]
+    if design.two_stage:
+        moved = (figures.BLOCK_AT - supports["block"][12:]) / scale
+        np.testing.assert_allclose(moved, 1e6 * motion.block[at], atol=1e-9)
+        np.testing.assert_allclose(supports["top"] - supports["bottom"], figures.BLOCK_HEIGHT)
+    else:
+        assert np.isnan(supports["block"]).all()
+        np.testing.assert_array_equal(supports["top"], figures.GROUND_AT)
+
+
+def test_the_scale_bar_is_as_long_as_it_says():
+    player = FilmPlayer()
+    player.show(tig.film(BLOCK))
+    bar, scale = player.view.bar.data, player.view.facts.data["scale"][0]
+    number, unit = bar["text"][0].split()
+    assert unit == "µm"
+    assert (bar["high"][0] - bar["low"][0]) / scale == pytest.approx(float(number))
+
+
+def test_a_shape_is_sent_as_the_twin_has_it():
+    player, shape = ShapePlayer(), tig.steady_shape(BLOCK, 80.0)
+    player.show(shape)
+    rail = np.array(player.rail.data["real"]) + 1j * np.array(player.rail.data["imag"])
+    np.testing.assert_allclose(rail, shape.rail[36:, 0])
+    block = np.array(player.block.data["real"]) + 1j * np.array(player.block.data["imag"])
+    np.testing.assert_allclose(block, shape.block[12:, 0])
+    scale = player.view.facts.data["scale"][0]
+    np.testing.assert_allclose(-player.view.rail.data["y"] / scale, shape.rail[:, 0].real, atol=1e-12)
+    player.show(tig.steady_shape(SLAB, 80.0))
+    assert len(player.block.data["real"]) == 0
+
+
+def test_nothing_that_the_browser_moves_comes_back():
+    for player in (FilmPlayer(), ShapePlayer()):
+        moved = [player.slider, player.play, player.view.rail, player.view.supports, player.view.wheel]
+        assert not any(model.syncable for model in moved)
+
+
+def test_the_largest_movement_stays_in_the_drawing():
+    player = FilmPlayer()
+    for design in tig.PRESETS.values():
+        motion = tig.film(design)
+        player.show(motion)
+        reach = player.view.facts.data["scale"][0] * 1e6 * np.abs(motion.wheel).max()
+        assert reach <= figures.LARGEST * (1 + 1e-9)
+        assert figures.WHEEL_AT + figures.WHEEL_HEIGHT / 2 + reach <= figures.SEEN[1] + 0.05

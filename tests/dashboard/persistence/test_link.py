@@ -1,0 +1,303 @@
+"""The address bar: what was encoded comes back, and whatever else is there does no harm."""
+
+import re
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import trackig_core as tig
+from dashboard.fields import INPUTS, NUMBERS, six_figures
+from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
+from dashboard.session.inputs import DesignInputs, Presentation, check_values, preset_values
+from dashboard.session.pins import MOST, Pin, Pins
+from trackig_core.names import LONGEST_NAME
+
+OPENING = DesignInputs().to_values()
+
+LINK_OF_VERSION_1 = (
+    "v=1&preset=slab-track&pad_stiffness=150&pad_loss_factor=0.12&block_mass=45&boot_stiffness=28"
+    "&boot_loss_factor=0.2&fastener_spacing=0.65&wheel_mass=900&contact_stiffness=1300&two_stage=0&rail=49E1"
+    "&summation=coherent&reference=rigid"
+    "&pin=3~0~booted-sleeper~160~0.2~210~31.5~0.3~0.75~450~1200~1~60E1~S%C3%B6fter+%7E+%C2%BD&base=1"
+)
+"""A link as somebody may have kept it: it opens the same study for ever."""
+
+
+def arguments(query):
+    """Return a query's arguments as a server hands them on."""
+    return {key: [each.encode() for each in values] for key, values in parse_qs(query).items()}
+
+
+def opened(**values):
+    """Return what a link with some raw values opens."""
+    return decode({key: [each] if isinstance(each, bytes) else each for key, each in values.items()})
+
+
+def number(name):
+    low, high = DesignInputs.param[name].bounds
+    return st.floats(low, high).map(six_figures)
+
+
+any_values = st.fixed_dictionaries(
+    {
+        "preset": st.sampled_from([*tig.PRESETS]),
+        "two_stage": st.booleans(),
+        "rail": st.sampled_from([*tig.RAILS]),
+        **{name: number(name) for name in NUMBERS},
+    }
+)
+any_view = st.fixed_dictionaries(
+    {}, optional={key: st.sampled_from(each) for key, each in VIEW_CHOICES.items()}
+)
+any_name = st.text(min_size=1, max_size=LONGEST_NAME).filter(
+    lambda name: name.isprintable() and name == name.strip() != ""
+)
+any_pins = st.lists(
+    st.tuples(any_name, st.integers(0, MOST - 1), any_values, st.booleans()),
+    max_size=MOST,
+    unique_by=(lambda pin: pin[0], lambda pin: pin[1]),
+).map(lambda rows: tuple(Pin(key, *row) for key, row in enumerate(rows)))
+
+
+@given(any_values, any_view, any_pins, st.data())
+def test_what_was_encoded_comes_back(values, view, pins, data):
+    base = data.draw(st.sampled_from([None, *range(len(pins))]))
+    link = decode(arguments(encode(values, view, pins, base)))
+    assert link.values == values
+    assert link.view == view
+    assert link.pins == pins
+    assert link.base == base
+    assert link.problems == ()
+
+
+@given(any_values)
+def test_a_link_reopens_the_same_design(values):
+    there, here = DesignInputs(), DesignInputs()
+    there.take(values)
+    here.take(decode(arguments(encode(there.to_values()))).values)
+    assert here.to_design() == there.to_design()
+
+
+def test_the_whole_design_is_in_a_link_even_if_it_is_the_opening_one():
+    assert {*INPUTS} <= arguments(encode(OPENING)).keys()
+
+
+def test_a_kept_link_opens_the_same_study_for_ever():
+    link = decode(arguments(LINK_OF_VERSION_1))
+    assert link.problems == ()
+    assert link.values == {
+        "preset": "slab-track",
+        "two_stage": False,
+        "rail": "49E1",
+        "pad_stiffness": 150.0,
+        "pad_loss_factor": 0.12,
+        "block_mass": 45.0,
+        "boot_stiffness": 28.0,
+        "boot_loss_factor": 0.2,
+        "fastener_spacing": 0.65,
+        "wheel_mass": 900.0,
+        "contact_stiffness": 1300.0,
+    }
+    assert link.view == {"summation": "coherent", "reference": "rigid"}
+    (pin,) = link.pins
+    assert (pin.name, pin.colour, pin.shown, link.base) == ("Söfter ~ ½", 3, False, 0)
+    assert pin.design == tig.PRESETS["booted-sleeper"].replace(
+        pad_stiffness=160e6, boot_loss_factor=0.3, rail=tig.RAILS["60E1"]
+    )
+    assert encode(link.values, link.view, link.pins, link.base) == LINK_OF_VERSION_1.replace("%7E", "~")
+
+
+def test_the_longest_link_fits_any_server_and_browser():
+    name = "\N{SNOWMAN}" * LONGEST_NAME
+    values = {**OPENING, **dict.fromkeys(("pad_loss_factor", "fastener_spacing"), 0.212345)}
+    pins = [Pin(key, name[:-1] + str(key), key, values) for key in range(MOST)]
+    assert len(encode(values, {}, pins)) < 5000
+
+
+def test_no_link_is_the_opening_design():
+    link = decode({})
+    assert (link.values, link.view, link.pins, link.base, link.problems) == (OPENING, {}, (), None, ())
+
+
+def test_a_link_by_hand_names_a_preset_and_what_differs():
+    link = opened(preset=b"slab-track", pad_stiffness=b"150")
+    assert link.values == {**preset_values("slab-track"), "pad_stiffness": 150.0}
+    assert link.problems == ()
+
+
+@pytest.mark.parametrize(
+    ("raw", "value"),
+    [
+        (b"1e99", 2000.0),
+        (b"1e999", 2000.0),
+        (b"-0", 10.0),
+        (b"-5", 10.0),
+        (b"9.99", 10.0),
+        (b"2000.01", 2000.0),
+    ],
+)
+def test_numbers_out_of_range_are_clamped_and_said(raw, value):
+    link = opened(pad_stiffness=raw)
+    assert link.values == {**OPENING, "pad_stiffness": value}
+    (problem,) = link.problems
+    assert re.fullmatch(r"Pad stiffness is .*, beyond 10 to 2000; \d+ was taken\.", problem)
+
+
+@pytest.mark.parametrize(
+    "raw",
+    [
+        *(b"", b" ", b"nan", b"NaN", b"inf", b"-Infinity", b"abc", b"1_000", b"0x10", b"1,5", b"1e", b"--1"),
+        *(
+            b"9" * 5000,
+            b"1" + b"0" * 40,
+            b"12\x00",
+            b"\xff\xfe",
+            b"null",
+            b"[1,2]",
+            b"<script>alert(1)</script>",
+        ),
+        *("١٢".encode(), b"100 ", b"1e5" * 2000),
+    ],
+)
+def test_what_is_no_number_is_ignored_and_said(raw):
+    link = opened(pad_stiffness=raw)
+    assert link.values == OPENING
+    assert link.problems == ("Pad stiffness is no number; 100 was taken.",)
+
+
+@pytest.mark.parametrize("name", ["preset", "two_stage", "rail", "summation", "reference"])
+@pytest.mark.parametrize("raw", [b"", b"2", b"True", b"<img src=x>", b"\xff", b"x" * 9999])
+def test_choices_that_are_not_on_offer_are_ignored_and_said(name, raw):
+    link = opened(**{name: raw})
+    assert (link.values, link.view) == (OPENING, {})
+    assert len(link.problems) == 1
+    assert link.problems[0].endswith("is none of those on offer; it was ignored.")
+
+
+def test_a_page_may_offer_further_views():
+    raw = {"tab": [b"verify"], "summation": [b"coherent"]}
+    assert decode(raw).view == {"summation": "coherent"}
+    assert decode(raw, {**VIEW_CHOICES, "tab": ("explore", "verify")}).view == {
+        "tab": "verify",
+        "summation": "coherent",
+    }
+
+
+def test_views_are_those_that_the_page_offers():
+    for name, allowed in VIEW_CHOICES.items():
+        for value in allowed:
+            assert getattr(Presentation(**opened(**{name: value.encode()}).view), name) == value
+
+
+def test_unknown_keys_are_said_by_their_letters_alone():
+    link = decode({"<script>alert(1)</script>": [b"1"], "k" * 5000: [b"<b>"], "\0\n": [b""]})
+    assert link.values == OPENING
+    assert [problem.split("”")[0] for problem in link.problems] == [
+        "“?script?alert?1???script…",
+        "“" + "k" * 24 + "…",
+        "“??",
+    ]
+
+
+def test_keys_of_the_server_are_none_of_ours():
+    assert decode({"theme": [b"dark"], "bokeh-session-id": [b"x"], "autoload": [b""]}).problems == ()
+
+
+def test_the_first_of_duplicates_is_taken_and_said():
+    link = opened(block_mass=[b"50", b"60"], wheel_mass=[b"500", b"500"])
+    assert (link.values["block_mass"], link.values["wheel_mass"]) == (50, 500)
+    assert link.problems == ("Block mass is in the link more than once; the first was taken.",)
+
+
+def test_a_newer_link_is_opened_as_far_as_it_is_known():
+    link = opened(v=b"2", block_mass=b"50", colour_of_sleepers=b"green")
+    assert link.values["block_mass"] == 50
+    assert len(link.problems) == 2
+
+
+def pin_text(colour="0", shown="1", name="Pin", **values):
+    return "~".join(
+        (colour, shown, *(str(v) for v in {**OPENING, "two_stage": 1, **values}.values()), name)
+    ).encode()
+
+
+def test_pins_that_cannot_be_read_are_left_out_and_the_base_follows():
+    link = opened(
+        pin=[b"junk", pin_text(name="First"), pin_text(rail="<b>"), pin_text(name="Second")], base=b"4"
+    )
+    assert [pin.name for pin in link.pins] == ["First", "Second"]
+    assert link.base == 1
+    assert link.problems == (
+        "Pin 1: it cannot be read; it was ignored.",
+        "Pin 3: it cannot be read; it was ignored.",
+    )
+
+
+def test_pins_are_made_to_differ():
+    link = opened(pin=[pin_text(), pin_text(), pin_text(colour="99"), pin_text(colour="-1", name="")])
+    assert [pin.name for pin in link.pins] == ["Pin", "Pin 2", "Pin 3", "Design 1"]
+    assert [pin.colour for pin in link.pins] == [0, 1, 2, 3]
+
+
+def test_values_of_pins_are_clamped_and_said():
+    link = opened(pin=pin_text(block_mass="1e6"))
+    assert link.pins[0].values["block_mass"] == 500
+    assert link.problems == ("Pin 1: Block mass is 1e+06, beyond 10 to 500; 500 was taken.",)
+
+
+def test_eight_pins_are_taken_of_a_thousand():
+    link = opened(pin=[pin_text()] * 1000)
+    assert len(link.pins) == MOST
+    assert link.problems == ("The link has 1000 pinned designs; 8 were taken.",)
+
+
+@pytest.mark.parametrize("base", [b"0", b"2", b"-1", b"x", b"1" * 5000])
+def test_a_base_that_is_no_pin_is_ignored_and_said(base):
+    link = opened(pin=pin_text(), base=base)
+    assert link.base is None
+    assert len(link.problems) == 1
+
+
+def test_names_in_a_link_are_shown_as_one_short_line():
+    (pin,) = opened(pin=pin_text(name="\u202ea\nb" + "c" * 400)).pins
+    assert pin.name == "a b" + "c" * 35 + "…"
+
+
+any_key = st.sampled_from(["v", "pin", "base", *INPUTS, *VIEW_CHOICES]) | st.text()
+any_raw = (
+    st.binary()
+    | st.text().map(lambda text: text.encode("utf-8", "surrogatepass"))
+    | st.floats().map(lambda value: repr(value).encode())
+    | st.integers().map(lambda value: str(value).encode())
+    | st.lists(st.sampled_from([b"~", b"0", b"1", b"60", b"slab-track", b"9e9", b"\xff"]), max_size=30).map(
+        b"".join
+    )
+    | any_pins.filter(bool).map(lambda pins: pin_text(name=pins[0].name))
+)
+
+
+@given(st.dictionaries(any_key, st.lists(any_raw, max_size=12), max_size=20))
+def test_nothing_that_a_link_may_hold_does_harm(hostile):
+    link = decode(hostile)
+    check_values(link.values)
+    inputs = DesignInputs()
+    inputs.take(link.values)
+    inputs.to_design()
+    Presentation(**link.view)
+    pins = Pins()
+    pins.replace_all(link.pins, link.base)
+    assert decode(arguments(encode(link.values, link.view, link.pins, link.base))).pins == link.pins
+    assert len(link.problems) <= MOST_PROBLEMS + 1
+    for problem in link.problems:
+        assert len(problem) < 160
+        assert problem.isprintable()
+        assert not {*"<>&\"'"} & {*problem}
+
+
+def test_a_query_stays_one_argument_after_the_question_mark():
+    pin = Pin(0, "a&b=c#d?<e>", 0, OPENING)
+    parts = urlsplit("http://here/dashboard?" + encode(OPENING, {}, [pin]))
+    assert parts.fragment == ""
+    assert decode(arguments(parts.query)).pins == (pin,)

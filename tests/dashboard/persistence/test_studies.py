@@ -1,0 +1,157 @@
+"""Studies in the dashboard: what was saved opens as it was, and what sliders cannot show is refused."""
+
+import dataclasses
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import trackig_core as tig
+from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, six_figures
+from dashboard.persistence.studies import from_study, to_study
+from dashboard.session.inputs import DesignInputs, Presentation, design_of, preset_values
+from dashboard.session.pins import MOST, Pin, Pins
+from trackig_core.names import LONGEST_NAME, is_name
+
+BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
+MEASURED = tig.StiffnessCurve([(5, 90e6, 0.1), (500, 150e6, 0.2)])
+
+
+def number(name):
+    low, high = DesignInputs.param[name].bounds
+    return st.one_of(st.sampled_from([low, high]), st.floats(low, high).map(six_figures))
+
+
+def as_kept(values):
+    """Return values, those that a single-stage track does not have as its preset has them."""
+    if values["two_stage"]:
+        return values
+    return values | {name: preset_values(values["preset"])[name] for name in SECOND_STAGE}
+
+
+any_values = st.fixed_dictionaries(
+    {
+        "preset": st.sampled_from([*tig.PRESETS]),
+        "two_stage": st.booleans(),
+        "rail": st.sampled_from([*tig.RAILS]),
+        **{name: number(name) for name in NUMBERS},
+    }
+).map(as_kept)
+any_view = st.fixed_dictionaries(
+    {name: st.sampled_from([*Presentation.param[name].objects]) for name in ("summation", "reference")}
+)
+printable = st.characters(exclude_categories=["C", "Z"], include_characters=" ")
+any_name = st.text(printable, min_size=1, max_size=LONGEST_NAME).filter(is_name)
+
+
+def any_pins(least=0):
+    return st.lists(
+        st.tuples(any_name, st.integers(0, MOST - 1), any_values, st.booleans()),
+        min_size=least,
+        max_size=MOST,
+        unique_by=(lambda pin: pin[0], lambda pin: pin[1]),
+    ).map(lambda rows: tuple(Pin(key, *row) for key, row in enumerate(rows)))
+
+
+def tables(kind):
+    bands = st.sampled_from([float(label) for label in tig.BAND_LABELS])
+    rows = st.dictionaries(bands, st.floats(-50, 50), min_size=1).map(lambda table: [*table.items()])
+    return st.one_of(st.none(), st.builds(kind, rows, any_name))
+
+
+@given(any_values, any_view, any_pins(), tables(tig.Specification), tables(tig.SourceSpectrum), st.data())
+def test_what_was_saved_opens_as_it_was(values, view, pins, specification, source, data):
+    base = data.draw(st.sampled_from([None, *range(len(pins))]))
+    study = to_study(values, view, pins, base, specification, source, "Workshop")
+    opened = from_study(tig.Study.from_toml(study.to_toml()))
+    assert opened.values == values
+    assert opened.view == view
+    assert opened.pins == pins
+    assert opened.base == base
+    assert (opened.specification, opened.source, opened.name) == (specification, source, "Workshop")
+
+
+@given(any_values, any_pins(1))
+def test_sliders_and_pins_take_what_a_study_opens(values, pins):
+    opened = from_study(to_study(values, pins=pins, base=len(pins) - 1))
+    inputs, kept = DesignInputs(), Pins()
+    inputs.take(opened.values)
+    kept.replace_all(opened.pins, opened.base)
+    assert inputs.to_values() == values
+    assert [(pin.name, pin.colour, pin.values, pin.shown) for pin in kept.pinned] == [
+        (pin.name, pin.colour, pin.values, pin.shown) for pin in pins
+    ]
+    assert kept[kept.base].name == pins[-1].name
+
+
+def test_a_single_stage_track_opens_the_same_whatever_its_idle_inputs_were():
+    values = preset_values("slab-track")
+    study = to_study(values | {"block_mass": 321.0})
+    assert study == to_study(values)
+    assert from_study(study).values == values
+
+
+@pytest.mark.parametrize("preset", tig.PRESETS)
+def test_a_published_track_opens_as_its_preset(preset):
+    opened = from_study(tig.Study(tig.PRESETS[preset]))
+    assert opened.values == preset_values(preset)
+
+
+def test_any_other_track_without_a_preset_departs_from_the_opening_one():
+    design = SLAB.replace(wheel_mass=700)
+    opened = from_study(tig.Study(design))
+    assert opened.values["preset"] == OPENING_PRESET
+    assert design_of(opened.values) == design
+
+
+def test_designs_of_one_colour_get_their_own():
+    pinned = [tig.PinnedDesign(name, SLAB) for name in ("A", "B", "C")]
+    assert [pin.colour for pin in from_study(tig.Study(BLOCK, pinned)).pins] == [0, 1, 2]
+
+
+REFUSED = {
+    "beyond the slider": (
+        BLOCK.replace(boot_stiffness=300e6),
+        ("boot_stiffness", "“Boot stiffness, kN/mm” is 300; the sidebar takes one number from 2 to 200"),
+    ),
+    "below the slider": (
+        SLAB.replace(fastener_spacing=0.15),
+        ("fastener_spacing", "“Fastener spacing, m” is 0.15; the sidebar takes one number from 0.2 to 1"),
+    ),
+    "seven figures": (
+        BLOCK.replace(pad_stiffness=100.0001e6),
+        ("pad_stiffness", "is 100000100.0 in SI units; the sidebar takes six figures, such as 100.0"),
+    ),
+    "measured stiffness": (
+        BLOCK.replace(pad_stiffness=MEASURED, pad_loss_factor=None),
+        ("pad_stiffness", "is measured over frequency; the sidebar takes one number from 10 to 2000"),
+    ),
+    "measured loss factor": (
+        BLOCK.replace(boot_loss_factor=tig.LossFactorCurve([(5, 0.1), (500, 0.2)])),
+        ("boot_loss_factor", "is measured over frequency; the sidebar takes one number from 0.01 to 0.5"),
+    ),
+    "a rail of its own": (
+        BLOCK.replace(rail=dataclasses.replace(BLOCK.rail, mass_per_metre=61.0)),
+        ("rail", "“Rail section” is '60', of its own values; the sidebar takes 60, "),
+    ),
+}
+
+
+@pytest.mark.parametrize(("design", "said"), REFUSED.values(), ids=REFUSED)
+def test_designs_that_sliders_cannot_show_are_refused(design, said):
+    field, words = said
+    with pytest.raises(tig.StudyError) as caught:
+        from_study(tig.Study(design))
+    assert caught.value.path == f"design.{field}"
+    assert "This design: " in str(caught.value)
+    assert words in str(caught.value)
+    pinned = [tig.PinnedDesign("Good", SLAB), tig.PinnedDesign("Odd one", design, colour=1)]
+    with pytest.raises(tig.StudyError) as caught:
+        from_study(tig.Study(BLOCK, pinned))
+    assert caught.value.path == f"pinned[1].design.{field}"
+    assert "“Odd one”: " in str(caught.value)
+
+
+def test_designs_of_one_name_are_refused():
+    with pytest.raises(tig.StudyError, match="two designs are called “A”; give each its own"):
+        from_study(tig.Study(BLOCK, [tig.PinnedDesign("A", SLAB), tig.PinnedDesign("A", BLOCK)]))

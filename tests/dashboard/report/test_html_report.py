@@ -1,0 +1,241 @@
+"""The report: everything is in it, nothing in it runs, and it asks for nothing."""
+
+import dataclasses
+import datetime
+import html
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import trackig_core as tig
+from dashboard import formats, theme
+from dashboard.report.html_report import html_report
+from dashboard.session.results import Picture
+
+LOW, HIGH = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["booted-block-high-mass"]
+HOSTILE = '<script>alert(1)</script>$\\frac "&</svg>'
+DAY = datetime.date(2026, 3, 5)
+
+VOID = {"meta", "br", "link", "img"}
+
+
+class Reader(HTMLParser):
+    """Reads tags, attributes and the text of each kind of element."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.tags, self.attributes, self.rows = [], [], [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.attributes += [(tag, name, value or "") for name, value in attributes]
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append("")
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.append(tag)
+        self.attributes += [(tag, name, value or "") for name, value in attributes]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if "td" in self.open or "th" in self.open:
+            self.rows[-1][-1] += data
+
+
+def row(reader, head):
+    """Return the cells of the rows that begin with given text."""
+    return [each[1:] for each in reader.rows if each[0].strip() == head]
+
+
+@pytest.fixture
+def pictures(picture):
+    return {tig.PRESETS[key]: picture(key) for key in tig.PRESETS}
+
+
+def limits(levels, **changed):
+    """Return a specification 1 dB above given levels but where changed."""
+    points = dict(zip((float(label) for label in tig.BAND_LABELS), levels + 1, strict=True))
+    return tig.Specification([*(points | changed).items()], name=f"Limit {HOSTILE}")
+
+
+@pytest.fixture
+def study(pictures):
+    levels = pictures[LOW].solution.insertion_gain
+    pinned = [
+        tig.PinnedDesign(HOSTILE, HIGH, colour=4),
+        tig.PinnedDesign("Hidden one", tig.PRESETS["booted-sleeper"], shown=False),
+        tig.PinnedDesign("Slab", tig.PRESETS["slab-track"], colour=1),
+    ]
+    source = tig.SourceSpectrum([(31.5, 70.0), (63, 65.0)], name=f"Source {HOSTILE}")
+    return tig.Study(LOW, pinned, limits(levels), source, name=f"Study {HOSTILE}")
+
+
+@pytest.fixture
+def report(study, pictures):
+    return html_report(study, pictures, date=DAY, version="9.8.7")
+
+
+def test_the_report_is_well_formed_and_dated(report, study):
+    reader = Reader(report)
+    assert reader.open == []
+    assert "5 March 2026 · trackig 9.8.7" in report
+    assert f"<h1>{html.escape(study.name, quote=False)[:11]}" in report
+
+
+def test_nothing_in_the_report_runs_or_asks_for_anything(report):
+    reader = Reader(report)
+    assert not {"script", "iframe", "object", "embed", "link", "img", "base", "form"} & set(reader.tags)
+    for _, name, value in reader.attributes:
+        assert not name.startswith("on")
+        if name in ("href", "xlink:href", "src"):
+            assert value.startswith("#")
+    assert "@import" not in report
+    assert all(target.startswith("#") for target in re.findall(r"url\(([^)]*)\)", report))
+    (policy,) = [value for tag, name, value in reader.attributes if tag == "meta" and "default-src" in value]
+    assert policy.startswith("default-src 'none'")
+
+
+def test_names_are_shown_as_they_are(report):
+    assert HOSTILE not in report
+    assert "&lt;script&gt;alert" in report
+
+
+def test_identifiers_are_unique_and_referenced_ones_exist(report):
+    identifiers = re.findall(r' id="([^"]+)"', report)
+    assert len(identifiers) == len(set(identifiers))
+    wanted = re.findall(r'href="#([^"]+)"', report) + re.findall(r"url\(#([^)]+)\)", report)
+    assert wanted
+    assert set(wanted) <= set(identifiers)
+
+
+def test_bands_margins_and_verdicts_are_those_of_the_core(report, study, pictures):
+    reader = Reader(report)
+    levels = [pictures[design].solution.insertion_gain for design in (LOW, HIGH, tig.PRESETS["slab-track"])]
+    verdicts = [study.specification.check(each) for each in levels]
+    for band, label in enumerate(tig.BAND_LABELS):
+        gains, margins = row(reader, label)
+        crosses = [" ✗" if verdict.fails[band] else "" for verdict in verdicts]
+        shown = [formats.signed_text(each[band]) + cross for each, cross in zip(levels, crosses, strict=True)]
+        assert gains == [formats.signed_text(study.specification.levels[band]), *shown]
+        assert margins == [
+            formats.signed_text(verdict.margins[band]) + cross
+            for verdict, cross in zip(verdicts, crosses, strict=True)
+        ]
+    assert verdicts[0].complies
+    assert not verdicts[2].complies
+    for verdict in verdicts:
+        assert f"{'✓' if verdict.complies else '✗'} {verdict}</strong>" in report
+
+
+def test_inputs_have_the_units_of_the_trade(report):
+    reader = Reader(report)
+    assert row(reader, "Pad stiffness, kN/mm") == [["100", "200", "1000"]]
+    assert row(reader, "Block mass, kg") == [["45", "120", "–"]]
+    assert row(reader, "Fastener spacing, m") == [["0.6", "0.6", "0.25"]]
+    assert row(reader, "Rail")[0][0] == "60: 60 kg/m, 6.3798 MN m²"
+
+
+def test_natural_frequencies_are_those_of_the_solutions(report, pictures):
+    natural = pictures[HIGH].solution.natural_frequencies
+    reader = Reader(report)
+    assert row(reader, "Loaded track")[0][1] == f"{natural.loaded_track:.1f}"
+    assert row(reader, "Coupled block")[0][1:] == [f"{natural.coupled_block:.0f}", "–"]
+
+
+def test_levels_with_the_track_are_those_of_the_source(report, study, pictures):
+    reader = Reader(report)
+    slab, here = (
+        study.source.with_track(pictures[design].solution.insertion_gain)
+        for design in (tig.PRESETS["slab-track"], LOW)
+    )
+    (cells,) = row(reader, "Slab")
+    difference = slab.relative_to(here)
+    assert cells == [
+        f"{slab.unweighted:.1f}", f"{slab.a_weighted:.1f}",
+        formats.signed_text(difference.unweighted), formats.signed_text(difference.a_weighted),
+    ]  # fmt: skip
+    assert row(reader, "This design")[0][2:] == ["0.0", "0.0"]
+    assert row(reader, "Reference track")[0][0] == f"{10 * np.log10(10**7 + 10**6.5):.1f}"
+
+
+def test_hidden_and_unsolved_designs_are_named(study, pictures):
+    some = {design: each for design, each in pictures.items() if design != tig.PRESETS["slab-track"]}
+    report = html_report(study, some, date=DAY, version="1")
+    assert "left out: Slab." in report
+    assert "judged: Hidden one." in report
+    assert row(Reader(report), "Pad stiffness, kN/mm") == [["100", "200"]]
+
+
+def test_the_report_holds_the_study(report, study):
+    (text,) = re.findall(r"<pre>(.*?)</pre>", report, re.DOTALL)
+    assert tig.Study.from_toml(html.unescape(text)) == study
+
+
+def test_insertion_gain_is_reckoned_as_the_study_says(study, pictures):
+    view = tig.View(summation="coherent", reference="rigid")
+    report = html_report(
+        tig.Study(HIGH, specification=study.specification, view=view), pictures, date=DAY, version="1"
+    )
+    expected = tig.solve(HIGH, "paper", summation="coherent", reference="rigid").insertion_gain
+    shown = [row(Reader(report), label)[0][1] for label in tig.BAND_LABELS]
+    assert [text.removesuffix(" ✗") for text in shown] == [formats.signed_text(level) for level in expected]
+    assert "exact rigid track" in report
+
+
+def test_a_bare_design_without_time_records_makes_a_short_report():
+    exact = Picture.of(tig.solve(LOW, "exact"), 0.1)
+    report = html_report(tig.Study(LOW), {LOW: exact}, date=DAY, version="1")
+    assert Reader(report).open == []
+    for absent in ("Verdict", "Force into", "Difference from", "Margin", "Level with", "Limit"):
+        assert f"<h2>{absent}" not in report
+
+
+def test_measured_tables_are_named_as_such(fake_picture):
+    design = LOW.replace(
+        boot_stiffness=tig.StiffnessCurve([(5, 22e6, 0.18), (50, 28e6, 0.2), (500, 38e6, 0.2)]),
+        boot_loss_factor=None,
+        pad_loss_factor=tig.LossFactorCurve([(5, 0.1), (500, 0.2)]),
+    )
+    notes = ("the boot is <b>odd</b>",)
+    reader = Reader(
+        text := html_report(tig.Study(design), {design: fake_picture(design, notes)}, date=DAY, version="1")
+    )
+    assert row(reader, "Boot stiffness, kN/mm") == [["measured at 3 frequencies, 5 to 500 Hz"]]
+    assert row(reader, "Boot loss factor") == [["in the stiffness table"]]
+    assert "This design: the boot is &lt;b&gt;odd&lt;/b&gt;." in text
+
+
+def test_without_any_solution_there_is_no_report(study):
+    with pytest.raises(ValueError, match="solve one first"):
+        html_report(study, {}, date=DAY, version="1")
+
+
+def test_failing_bands_are_marked_in_the_plot(pictures):
+    levels = pictures[LOW].solution.insertion_gain
+
+    def marks(specification):
+        report = html_report(tig.Study(LOW, specification=specification), pictures, date=DAY, version="1")
+        return report.count(f"fill: {theme.REPORT_BAD}")
+
+    failing = limits(levels)
+    met = marks(failing)
+    tight = [(f, level - 3 if f in (63.0, 125.0) else level) for f, level in failing.points]
+    assert (met, marks(tig.Specification(tight))) == (0, 2)
+
+
+def test_designs_look_as_their_colours_say_and_no_two_alike(study, pictures):
+    pinned = [dataclasses.replace(each, colour=4, shown=True) for each in study.pinned]
+    report = html_report(dataclasses.replace(study, pinned=pinned), pictures, date=DAY, version="9.8.7")
+    looks = re.findall(r'stroke="(#\w+)" stroke-width="3" stroke-dasharray="([\d ]*)"', report)[:4]
+    own = [(theme.DESIGN_COLOURS[n], " ".join(map(str, theme.DESIGN_DASHES[n]))) for n in (4, 0, 1)]
+    assert looks == [(theme.THIS_DESIGN, ""), *own]

@@ -1,0 +1,195 @@
+"""Inputs in display units, and what they make."""
+
+import dataclasses
+
+import pytest
+
+import trackig_core as tig
+from dashboard.fields import INPUTS, NUMBERS, PHYSICAL, PRESET_LABELS, to_display, to_si
+from dashboard.session.inputs import DesignInputs, design_of, preset_values
+from dashboard.session.results import Picture
+
+
+@pytest.mark.parametrize("preset", tig.PRESETS)
+def test_a_chosen_preset_is_the_published_design(preset):
+    inputs = DesignInputs()
+    inputs.preset = preset
+    assert inputs.to_design() == tig.PRESETS[preset]
+    assert not inputs.modified
+
+
+def test_the_dashboard_opens_on_the_low_mass_block():
+    assert DesignInputs().to_design() == tig.PRESETS["booted-block-low-mass"]
+
+
+def test_every_preset_has_a_name_for_people():
+    assert PRESET_LABELS.keys() == tig.PRESETS.keys()
+
+
+@pytest.mark.parametrize(
+    ("name", "shown", "si"),
+    [
+        ("pad_stiffness", 100, 100e6),
+        ("boot_stiffness", 31.5, 31.5e6),
+        ("contact_stiffness", 1200, 1.2e9),
+        ("block_mass", 45, 45.0),
+        ("fastener_spacing", 0.6, 0.6),
+    ],
+)
+def test_stiffness_is_shown_in_kilonewton_per_millimetre(name, shown, si):
+    assert to_si(name, shown) == si
+    assert to_display(name, si) == shown
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_every_input_reaches_the_design(name):
+    inputs = DesignInputs()
+    low, high = inputs.param[name].bounds
+    for bound in (low, high):
+        setattr(inputs, name, bound)
+        assert getattr(inputs.to_design(), name) == pytest.approx(to_si(name, bound))
+        assert inputs.modified
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_table_1_lies_within_the_bounds(name):
+    low, high = DesignInputs.param[name].bounds
+    for design in tig.PRESETS.values():
+        value = getattr(design, name)
+        assert value is None or low <= to_display(name, value) <= high
+
+
+@pytest.mark.parametrize("value", [9.99, 2000.1, float("nan"), float("inf"), "100"])
+def test_values_out_of_bounds_are_refused(value):
+    with pytest.raises(ValueError, match="pad_stiffness"):
+        DesignInputs().pad_stiffness = value
+
+
+def test_float_dust_makes_no_new_design():
+    inputs = DesignInputs()
+    inputs.fastener_spacing = 0.1 + 0.2
+    clean = inputs.to_design()
+    inputs.fastener_spacing = 0.3
+    assert clean == inputs.to_design()
+    assert clean.fastener_spacing == 0.3
+
+
+def test_a_change_shows_as_modified_and_can_be_taken_back():
+    inputs = DesignInputs(preset="booted-sleeper")
+    inputs.boot_stiffness = 10
+    inputs.rail = "49E1"
+    assert inputs.modified
+    inputs.revert()
+    assert not inputs.modified
+    assert inputs.to_design() == tig.PRESETS["booted-sleeper"]
+
+
+def test_a_change_undone_by_hand_is_no_longer_modified():
+    inputs = DesignInputs()
+    inputs.block_mass = 46
+    inputs.block_mass = 45
+    assert not inputs.modified
+
+
+def test_single_stage_leaves_the_second_stage_out_and_keeps_its_values():
+    inputs = DesignInputs()
+    inputs.block_mass = 77
+    inputs.two_stage = False
+    single = inputs.to_design()
+    assert not single.two_stage
+    assert single.boot_stiffness is None
+    inputs.two_stage = True
+    assert inputs.to_design().block_mass == 77
+
+
+def test_a_single_stage_preset_keeps_block_and_boot_for_later():
+    inputs = DesignInputs()
+    inputs.preset = "slab-track"
+    assert not inputs.two_stage
+    inputs.two_stage = True
+    assert inputs.to_design() == dataclasses.replace(
+        tig.PRESETS["slab-track"], block_mass=45.0, boot_stiffness=28e6, boot_loss_factor=0.2
+    )
+
+
+def test_a_preset_arrives_as_one_change():
+    inputs = DesignInputs()
+    batches = []
+    inputs.param.watch(lambda *events: batches.append({event.name for event in events}), list(NUMBERS))
+    inputs.preset = "booted-block-high-mass"
+    assert batches == [{"pad_stiffness", "block_mass", "boot_stiffness"}]
+
+
+@pytest.mark.parametrize("preset", tig.PRESETS)
+def test_values_of_a_preset_are_those_of_a_fresh_page_that_chose_it(preset):
+    inputs = DesignInputs()
+    inputs.preset = preset
+    assert preset_values(preset) == inputs.to_values()
+    assert design_of(preset_values(preset)) == tig.PRESETS[preset]
+
+
+TUNED = {"two_stage": False, "rail": "49E1", "boot_stiffness": 12.5, "fastener_spacing": 0.65}
+
+
+def test_values_taken_back_give_the_same_design_as_one_change():
+    inputs = DesignInputs(preset="slab-track", **TUNED)
+    values = inputs.to_values()
+    other = DesignInputs()
+    batches = []
+    other.param.watch(lambda *events: batches.append({event.name for event in events}), list(INPUTS))
+    other.take(values)
+    assert other.to_values() == values
+    assert other.to_design() == inputs.to_design()
+    assert other.modified
+    assert batches == [{"preset", *TUNED}]
+
+
+def test_taking_a_preset_as_published_is_no_modification():
+    inputs = DesignInputs()
+    inputs.block_mass = 77
+    inputs.take(preset_values("booted-sleeper"))
+    assert not inputs.modified
+    inputs.preset = "booted-block-low-mass"
+    assert inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
+
+
+def test_values_carry_no_float_dust():
+    inputs = DesignInputs()
+    inputs.fastener_spacing = 0.1 + 0.2
+    assert inputs.to_values()["fastener_spacing"] == 0.3
+
+
+def test_values_out_of_bounds_change_nothing():
+    inputs = DesignInputs()
+    before = inputs.to_values()
+    with pytest.raises(ValueError, match="block_mass"):
+        inputs.take({**before, "pad_stiffness": 200, "block_mass": 9999})
+    assert inputs.to_values() == before
+    assert set(before) == {"preset", *PHYSICAL}
+
+
+def test_labels_carry_units():
+    for name in ("pad_stiffness", "boot_stiffness", "contact_stiffness"):
+        assert DesignInputs.param[name].label.endswith(", kN/mm")
+    for name in ("block_mass", "wheel_mass"):
+        assert DesignInputs.param[name].label.endswith(", kg")
+    assert DesignInputs.param.fastener_spacing.label.endswith(", m")
+
+
+def test_a_picture_is_a_solution_in_display_units_without_its_history():
+    solution = tig.solve(tig.PRESETS["booted-block-low-mass"], "live")
+    picture = Picture.of(solution, 0.25)
+    assert picture.design == solution.design
+    assert picture.solution.history is None
+    assert picture.solution.insertion_gain == pytest.approx(solution.insertion_gain, abs=0)
+    assert 1000 * picture.total_force == pytest.approx(solution.total_force)
+    assert 1000 * picture.loaded_support_force == pytest.approx(solution.loaded_support_force)
+    assert picture.time is solution.time
+    assert picture.step / 1000 == pytest.approx(solution.history.step)
+    assert picture.seconds == 0.25
+
+
+def test_an_exact_picture_has_no_forces_over_time():
+    picture = Picture.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.001)
+    assert picture.solution.insertion_gain.shape == (21,)
+    assert [picture.time, picture.loaded_support_force, picture.total_force, picture.step] == [None] * 4

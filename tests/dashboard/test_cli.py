@@ -1,0 +1,268 @@
+"""The command line: what it prints is what the core computes, and errors are told in one line."""
+
+import contextlib
+import csv
+import io
+import json
+import os
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import trackig_core as tig
+from dashboard.cli import main
+
+ROOT = Path(__file__).parent.parent.parent
+BLOCK = tig.PRESETS["booted-block-low-mass"]
+FLOOR = tig.Specification([(8, -50.0)], name="Floor")
+CEILING = tig.Specification([(float(label), 40.0) for label in tig.BAND_LABELS], name="Ceiling")
+
+
+@pytest.fixture
+def save(tmp_path):
+    """Return a function that saves a study and returns its path."""
+
+    def save(file="study.toml", **parts):
+        path = tmp_path / file
+        path.write_text(tig.Study(**{"design": BLOCK, **parts}).to_toml(), encoding="utf-8")
+        return str(path)
+
+    return save
+
+
+def bands(text):
+    """Return the levels of a printed table of bands."""
+    lines = [line.split() for line in text.splitlines()]
+    found = {line[0]: float(line[1]) for line in lines if len(line) == 2 and line[0] in tig.BAND_LABELS}
+    return np.array([found[label] for label in tig.BAND_LABELS])
+
+
+def test_solve_prints_what_the_core_finds(capsys):
+    assert main(["solve", "booted-sleeper", "--set", "boot_stiffness=20e6", "--fidelity", "exact"]) == 0
+    text = capsys.readouterr().out
+    solution = tig.solve(tig.PRESETS["booted-sleeper"].replace(boot_stiffness=20e6), "exact")
+    np.testing.assert_allclose(bands(text), solution.insertion_gain, atol=0.0501)
+    assert f"loaded track    {solution.natural_frequencies.loaded_track:.1f} Hz" in text
+
+
+def test_solve_is_the_papers_unless_told_otherwise(capsys, picture):
+    assert main(["solve", "booted-block-low-mass"]) == 0
+    text = capsys.readouterr().out
+    np.testing.assert_allclose(
+        bands(text), picture("booted-block-low-mass").solution.insertion_gain, atol=0.0501
+    )
+    assert "fidelity paper, reference line, summation energy" in text
+
+
+def test_a_study_is_solved_as_it_is_looked_at(capsys, save):
+    path = save(view=tig.View(summation="coherent", reference="rigid"))
+    assert main(["solve", path, "--fidelity", "exact"]) == 0
+    text = capsys.readouterr().out
+    expected = tig.solve(BLOCK, "exact", summation="coherent", reference="rigid").insertion_gain
+    np.testing.assert_allclose(bands(text), expected, atol=0.0501)
+    assert main(["solve", path, "--fidelity", "exact", "--reference", "line"]) == 0
+    assert "reference line, summation coherent" in capsys.readouterr().out
+
+
+def test_fields_can_be_changed_and_cleared(capsys):
+    changes = ["block_mass=none", "boot_stiffness=none", "boot_loss_factor=none", "rail=54E1"]
+    words = [word for change in changes for word in ("--set", change)]
+    assert main(["solve", "booted-sleeper", "--fidelity", "exact", *words]) == 0
+    text = capsys.readouterr().out
+    design = tig.PRESETS["booted-sleeper"].replace(
+        block_mass=None, boot_stiffness=None, boot_loss_factor=None, rail=tig.RAILS["54E1"]
+    )
+    np.testing.assert_allclose(bands(text), tig.solve(design, "exact").insertion_gain, atol=0.0501)
+    assert "coupled block" not in text
+
+
+def test_results_are_written_in_full(tmp_path):
+    table, record = tmp_path / "ig.csv", tmp_path / "ig.json"
+    arguments = ["solve", "slab-track", "--fidelity", "exact", "--csv", str(table), "--json", str(record)]
+    assert main(arguments) == 0
+    solution = tig.solve(tig.PRESETS["slab-track"], "exact")
+    rows = list(csv.reader(io.StringIO(table.read_text())))
+    assert rows[0] == ["frequency_hz", "insertion_gain_db"]
+    assert [row[0] for row in rows[1:]] == list(tig.BAND_LABELS)
+    assert [float(row[1]) for row in rows[1:]] == solution.insertion_gain.tolist()
+    found = json.loads(record.read_text())
+    assert found["insertion_gain_db"] == solution.insertion_gain.tolist()
+    assert found["natural_frequencies_hz"]["loaded_track"] == solution.natural_frequencies.loaded_track
+    assert found["natural_frequencies_hz"]["coupled_block"] is None
+    rail = tig.Rail(**found["design"].pop("rail"))
+    assert tig.TrackDesign(rail=rail, **found["design"]) == solution.design
+
+
+def test_files_are_not_written_over_unless_forced(tmp_path, capsys, save):
+    table = tmp_path / "ig.csv"
+    table.write_text("precious")
+    arguments = ["solve", "slab-track", "--fidelity", "exact", "--csv", str(table)]
+    assert main(arguments) == 2
+    assert "give --force" in capsys.readouterr().err
+    assert table.read_text() == "precious"
+    assert main([*arguments, "--force"]) == 0
+    assert table.read_text().startswith("frequency_hz")
+    path = save()
+    before = Path(path).read_text()
+    assert main(["report", path, path, "--force"]) == 2
+    assert "this is the file that is read" in capsys.readouterr().err
+    assert Path(path).read_text() == before
+
+
+@pytest.mark.parametrize(
+    ("specification", "pinned", "code"),
+    [
+        (CEILING, [], 0),
+        (FLOOR, [], 1),
+        (CEILING, [tig.PinnedDesign("Softer", BLOCK.replace(boot_stiffness=20e6))], 0),
+    ],
+)
+def test_check_tells_each_verdict_and_whether_all_comply(save, capsys, specification, pinned, code):
+    assert main(["check", save(specification=specification, pinned=pinned), "--fidelity", "exact"]) == code
+    lines = capsys.readouterr().out.splitlines()
+    designs = {"This design": BLOCK} | {each.name: each.design for each in pinned}
+    levels = {name: tig.solve(design, "exact").insertion_gain for name, design in designs.items()}
+    assert lines == [f"{name}: {specification.check(level)}" for name, level in levels.items()]
+
+
+def test_only_designs_that_are_shown_are_checked(save, capsys):
+    slab = tig.PRESETS["slab-track"]
+    levels = [tig.solve(design, "exact").insertion_gain[15] for design in (BLOCK, slab)]
+    between = tig.Specification([(160, sum(levels) / 2)])
+    assert levels[0] < levels[1]
+    for shown in (True, False):
+        pinned = [tig.PinnedDesign("Slab", slab, shown=shown)]
+        path = save(specification=between, pinned=pinned)
+        assert main(["check", path, "--fidelity", "exact"]) == int(shown)
+        assert ("Slab: fails by" in capsys.readouterr().out) == shown
+
+
+def test_check_takes_a_specification_from_a_file(save, tmp_path, capsys):
+    table = tmp_path / "limit.csv"
+    table.write_text(FLOOR.to_csv())
+    assert main(["check", save(), "--fidelity", "exact", "--specification", str(table)]) == 1
+    table.write_text("frequency_hz,ig_max_db\n8,x\n")
+    capsys.readouterr()
+    assert main(["check", save(), "--fidelity", "exact", "--specification", str(table)]) == 2
+    assert f"{table}: line 2, column 2: ig_max_db = 'x'" in capsys.readouterr().err
+
+
+def test_a_report_is_written(save, tmp_path, capsys):
+    out = tmp_path / "out.html"
+    pinned = [tig.PinnedDesign("<b>Softer</b>", BLOCK.replace(boot_stiffness=20e6), shown=False)]
+    path = save(specification=CEILING, pinned=pinned, view=tig.View(base=0), name="Workshop")
+    assert main(["report", path, str(out), "--fidelity", "exact"]) == 0
+    text = out.read_text(encoding="utf-8")
+    assert text.startswith("<!DOCTYPE html>")
+    assert "<h1>Workshop</h1>" in text
+    assert tig.__version__ in text
+    assert capsys.readouterr().out.strip() == str(out)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["solve", "booted-slper"], "did you mean booted-sleeper?"),
+        (["solve", "zzz.toml"], "no preset and no file; presets are slab-track"),
+        (["solve", "slab-track", "--set", "boot_stifness=2e7"], "'boot_stiffness'"),
+        (["solve", "slab-track", "--set", "pad_stiffness=20"], "from 100000 to 1e+13 N/m"),
+        (["solve", "slab-track", "--set", "pad_stiffness=nan"], "pad_stiffness = nan"),
+        (["solve", "slab-track", "--set", "pad_stiffness=stiff"], "pad_stiffness = 'stiff'"),
+        (["solve", "slab-track", "--set", "pad_stiffness"], "write FIELD=VALUE"),
+        (["solve", "slab-track", "--set", "rail=99"], "rails are 60, 49E1"),
+        (["solve", "slab-track", "--set", "boot_stiffness=2e7"], "come together"),
+        (["solve", "{tmp}"], "{tmp}: "),
+        (["solve", "{tmp}/bad.toml"], "{tmp}/bad.toml: this is not TOML"),
+        (["solve", "{tmp}/large.toml"], "{tmp}/large.toml: the file is larger than 256 kB"),
+        (["check", "{tmp}/none.toml"], "{tmp}/none.toml: No such file"),
+        (["check", "{tmp}/bare.toml"], "has no specification"),
+        (["report", "{tmp}/bare.toml", "{tmp}/no/such/folder.html", "--fidelity", "exact"], "No such file"),
+        (["solve", "slab-track", "--fidelity", "exact", "--set", "pad_loss_factor=0"], "loss"),
+    ],
+)
+def test_errors_are_told_in_one_line(arguments, words, tmp_path, capsys, save):
+    save("bare.toml")
+    (tmp_path / "bad.toml").write_text("format = ")
+    (tmp_path / "large.toml").write_text("#" * 300_000)
+    assert main([each.format(tmp=tmp_path) for each in arguments]) == 2
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert output.err.startswith("trackig: ")
+    assert output.err.count("\n") == 1
+    assert words.format(tmp=tmp_path) in output.err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [[], ["solve"], ["fly"], ["solve", "slab-track", "--fidelity", "wild"], ["serve", "--port", "99999"]],
+)
+def test_wrong_usage_exits_with_two(arguments, capsys):
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 2
+    assert "usage: trackig" in capsys.readouterr().err
+
+
+def test_help_names_units_and_ranges(capsys):
+    with pytest.raises(SystemExit) as caught:
+        main(["solve", "--help"])
+    assert caught.value.code == 0
+    text = capsys.readouterr().out
+    assert "boot_stiffness     100000 to 1e+13 N/m" in text
+    assert "fastener_spacing   0.1 to 2 m" in text
+
+
+def run(arguments, folder, **more):
+    """Start the command in a process of its own, away from the project's folder."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "dashboard.cli", *arguments],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        text=True,
+        **more,
+    )
+
+
+def test_the_command_runs_as_a_process_and_lets_go_of_a_closed_pipe(tmp_path):
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    process = run(["solve", "slab-track", "--fidelity", "exact"], tmp_path, **pipes)
+    output, errors = process.communicate(timeout=120)
+    assert (process.returncode, errors) == (0, "")
+    assert "loaded track" in output
+    process = run(["solve", "slab-track", "--fidelity", "exact"], tmp_path, **pipes)
+    process.stdout.close()
+    assert process.stderr.read() == ""
+    assert process.wait(120) == 0
+    process.stderr.close()
+
+
+def test_serve_shows_the_dashboard_from_anywhere(tmp_path):
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    log = tmp_path / "log.txt"
+    with log.open("w") as output:
+        server = run(["serve", "--port", str(port)], tmp_path, stdout=output, stderr=subprocess.STDOUT)
+    try:
+        page, deadline = "", time.monotonic() + 120
+        while not page and server.poll() is None and time.monotonic() < deadline:
+            with (
+                contextlib.suppress(urllib.error.URLError, ConnectionError),
+                urllib.request.urlopen(f"http://localhost:{port}/dashboard", timeout=120) as answer,
+            ):
+                page = answer.read().decode()
+            time.sleep(0.1)
+    finally:
+        server.terminate()
+        server.wait(30)
+    assert "<title>trackig</title>" in page, log.read_text()
+    assert "could not start" not in page
+    assert f"http://localhost:{port}/dashboard" in log.read_text()
+    assert "Traceback" not in log.read_text()

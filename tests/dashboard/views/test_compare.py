@@ -1,0 +1,279 @@
+"""Designs side by side: the list of pins, the table, differences from a base, undo and redo, the drawing."""
+
+import numpy as np
+import pytest
+from bokeh.models import HoverTool
+
+import trackig_core as tig
+from dashboard import formats, theme
+from dashboard.client.browser import Browser
+from dashboard.session.curves import PinnedCurves
+from dashboard.session.inputs import DesignInputs, Presentation, preset_values
+from dashboard.session.pins import MOST, Pins
+from dashboard.session.results import Outcome
+from dashboard.views.compare import Compare
+from dashboard.views.components import swatch_svg
+from dashboard.views.design_bar import DesignBar
+from dashboard.views.track import Track
+
+MARKUP = "<img src=x onerror=console.error(1)>"
+
+KEYS = ("slab-track", "booted-sleeper")
+
+
+class Session:
+    """What a user has in front of him, with two pins and no solver."""
+
+    def __init__(self, picture, make_pictures):
+        self.inputs, self.presentation, self.pins = DesignInputs(), Presentation(), Pins()
+        self.outcome = Outcome(picture=picture("booted-block-low-mass"))
+        self.slab, self.sleeper = self.pins.add_all([(preset_values(key), key) for key in KEYS])
+        pictures = {self.slab.key: picture("slab-track"), self.sleeper.key: picture("booted-sleeper")}
+        self.pinned = make_pictures(pictures=pictures)
+        self.curves = PinnedCurves(self.pins, self.pinned, self.presentation)
+        self.asked = []
+        self.view = Compare(
+            self.inputs,
+            self.outcome,
+            self.presentation,
+            self.pins,
+            self.pinned,
+            self.curves,
+            lambda: self.asked.append(True),
+        )
+        self.view.look(in_sight=True)
+
+    def level(self, key):
+        return tig.solve(tig.PRESETS[key]).insertion_gain
+
+    @property
+    def table(self):
+        return self.view.table.object
+
+    def row(self, label):
+        """Return what stands in a row of the table, tags taken off."""
+        row = self.table.split(f'<th scope="row">{label}</th>')[1].split("</tr>")[0]
+        return [
+            tuple(cell.replace("</span>", "").split('<span class="difference">'))
+            for cell in row.replace("</td>", "").split("<td>")[1:]
+        ]
+
+
+@pytest.fixture
+def session(picture, make_pictures):
+    return Session(picture, make_pictures)
+
+
+def test_parameters_stand_side_by_side_in_display_units(session):
+    assert session.row("Pad stiffness, kN/mm") == [("100",), ("1000", "+900"), ("150", "+50")]
+    assert session.row("Block mass, kg") == [("45",), ("–",), ("210", "+165")]
+    assert session.row("Fastener spacing, m") == [("0.6",), ("0.25", "−0.35"), ("0.75", "+0.15")]
+
+
+def test_frequencies_and_levels_differ_from_the_chosen_base(session):
+    session.view.base.value = session.slab.key
+    assert session.pins.base == session.slab.key
+    solutions = [tig.solve(tig.PRESETS[key]) for key in ("booted-block-low-mass", *KEYS)]
+    loaded = [solution.natural_frequencies.loaded_track for solution in solutions]
+    found = session.row("Loaded track")
+    assert found[1] == (formats.frequency_text(loaded[1]).removesuffix(" Hz"),)
+    assert found[0][1] == formats.signed_text(loaded[0] - loaded[1])
+    band = tig.BAND_LABELS.index("63")
+    hand, slab, sleeper = (solution.insertion_gain[band] for solution in solutions)
+    assert session.row("63 Hz") == [
+        (formats.signed_text(hand), formats.signed_text(hand - slab)),
+        (formats.signed_text(slab),),
+        (formats.signed_text(sleeper), formats.signed_text(sleeper - slab)),
+    ]
+
+
+def test_bands_are_those_that_were_chosen(session):
+    assert '<th scope="row">8 Hz</th>' not in session.table
+    session.view.bands.value = ["8"]
+    assert '<th scope="row">8 Hz</th>' in session.table
+    assert '<th scope="row">63 Hz</th>' not in session.table
+
+
+def test_differences_are_drawn_from_the_base(session):
+    data = session.view.differences.differences
+    own = session.level("booted-block-low-mass")
+    np.testing.assert_allclose(data.data["pin_0"], session.level("slab-track") - own, atol=1e-9)
+    np.testing.assert_allclose(data.data["pin_1"], session.level("booted-sleeper") - own, atol=1e-9)
+    assert np.isnan(data.data[f"pin_{MOST}"]).all()
+    session.pins.choose_base(session.slab.key)
+    slab = session.level("slab-track")
+    np.testing.assert_allclose(data.data["pin_0"], session.level("booted-sleeper") - slab, atol=1e-9)
+    np.testing.assert_allclose(data.data[f"pin_{MOST}"], own - slab, atol=1e-9)
+    names = [item.label.value for item in session.view.differences.model.legend[0].items if item.visible]
+    assert names == ["this design", "booted-sleeper"]
+    (hover,) = session.view.differences.model.select({"type": HoverTool})
+    assert [name for name, _ in hover.tooltips] == ["band", *names]
+
+
+def test_a_base_that_is_not_solved_yet_says_no_differences(session):
+    new = session.pins.add({**preset_values("slab-track"), "wheel_mass": 700.0}, "new")
+    session.pins.choose_base(new.key)
+    assert np.isnan(session.view.differences.differences.data["pin_0"]).all()
+    assert [cell[0] for cell in session.row("63 Hz")][-1] == "–"
+    assert all(len(cell) == 1 for cell in session.row("63 Hz"))
+
+
+def test_the_choice_of_sum_is_compared_too(session):
+    session.presentation.summation = "coherent"
+    band = tig.BAND_LABELS.index("125")
+    slab = tig.solve(tig.PRESETS["slab-track"], summation="coherent").insertion_gain[band]
+    assert session.row("125 Hz")[1][0] == formats.signed_text(slab)
+
+
+def test_nothing_is_reckoned_while_nobody_looks(session, picture):
+    before = session.table
+    session.view.look(in_sight=False)
+    session.outcome.picture = picture("booted-block-high-mass")
+    assert session.table == before
+    session.view.look(in_sight=True)
+    assert session.table != before
+
+
+def test_hidden_pins_are_neither_listed_nor_drawn(session):
+    session.view.list.rows[session.slab.key].shown.value = False
+    assert not session.pins[session.slab.key].shown
+    assert "slab-track" not in session.table
+    names = [item.label.value for item in session.view.differences.model.legend[0].items if item.visible]
+    assert names == ["booted-sleeper"]
+
+
+def test_a_row_renames_recolours_puts_back_and_removes(session):
+    row = session.view.list.rows[session.slab.key]
+    row.name_box.value = "Mine"
+    assert session.pins[session.slab.key].name == "Mine"
+    assert "Mine" in session.table
+    row.colour.value = 5
+    assert session.pins[session.slab.key].colour == 5
+    assert row.swatch.object == swatch_svg(theme.DESIGN_COLOURS[5], theme.DESIGN_DASHES[5])
+    row.use.param.trigger("clicks")
+    assert session.inputs.to_design() == tig.PRESETS["slab-track"]
+    assert session.view.list.rows[session.slab.key] is row
+    row.remove.param.trigger("clicks")
+    assert [pin.key for pin in session.pins.pinned] == [session.sleeper.key]
+    assert list(session.view.list.rows) == [session.sleeper.key]
+
+
+@pytest.mark.parametrize("name", ["booted-sleeper", "", "x" * 41])
+def test_a_name_that_cannot_be_taken_changes_nothing(session, name):
+    row = session.view.list.rows[session.slab.key]
+    row.name_box.value = name
+    assert session.pins[session.slab.key].name == "slab-track"
+    assert row.name_box.error_state
+    row.name_box.value = "Mine"
+    assert not row.name_box.error_state
+
+
+def test_no_name_becomes_markup(session):
+    session.pins.rename(session.slab.key, MARKUP)
+    session.pins.choose_base(session.slab.key)
+    assert "<img" not in session.table
+    assert "&lt;img" in session.table
+
+
+def test_no_pin_can_be_taken_for_the_design_at_hand(session):
+    session.pins.rename(session.slab.key, "this design")
+    assert list(session.view.base.options.values()) == [0, session.slab.key, session.sleeper.key]
+
+
+def test_table_1_is_pinned_in_one_click_and_figure_2_shown_in_another(session):
+    session.view.table_1.param.trigger("clicks")
+    assert {pin.design for pin in session.pins.pinned} == set(tig.PRESETS.values())
+    session.view.figure_2.param.trigger("clicks")
+    assert session.pins.alone
+    assert session.asked == [True]
+
+
+def test_where_there_is_no_room_for_table_1_nothing_changes(session):
+    values = preset_values("slab-track")
+    session.pins.add_all([({**values, "wheel_mass": 700.0 + count}, "") for count in range(MOST - 2)])
+    for button in (session.view.table_1, session.view.figure_2):
+        button.param.trigger("clicks")
+    assert len(session.pins.pinned) == MOST
+    assert not session.pins.alone
+    assert session.asked == []
+
+
+class Bar:
+    """The bar above the sliders, and a clock that a test sets."""
+
+    def __init__(self):
+        self.inputs, self.pins, self.browser, self.now = DesignInputs(), Pins(), Browser(), 0.0
+        self.bar = DesignBar(self.inputs, self.pins, self.browser, clock=lambda: self.now)
+
+
+@pytest.fixture
+def bar():
+    return Bar()
+
+
+def test_a_drag_is_undone_in_one_step_and_redone(bar):
+    for position, mass in enumerate((50.0, 60.0, 70.0)):
+        bar.now = 0.1 * position
+        bar.inputs.block_mass = mass
+    bar.now = 10.0
+    bar.inputs.wheel_mass = 700.0
+    bar.bar.undo.param.trigger("clicks")
+    assert (bar.inputs.block_mass, bar.inputs.wheel_mass) == (70.0, 880.0)
+    bar.browser.undone += 1
+    assert bar.inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
+    assert bar.bar.undo.disabled
+    assert not bar.bar.redo.disabled
+    bar.browser.redone += 1
+    bar.bar.redo.param.trigger("clicks")
+    assert (bar.inputs.block_mass, bar.inputs.wheel_mass) == (70.0, 700.0)
+    assert bar.bar.redo.disabled
+
+
+def test_a_preset_is_one_step(bar):
+    bar.inputs.preset = "slab-track"
+    bar.bar.undo.param.trigger("clicks")
+    assert bar.inputs.preset == "booted-block-low-mass"
+    assert bar.inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
+    assert bar.bar.undo.disabled
+
+
+def test_keys_without_a_step_do_nothing(bar):
+    bar.browser.undone += 1
+    bar.browser.redone += 1
+    assert not bar.inputs.modified
+
+
+def test_a_design_is_pinned_under_its_name_or_that_of_its_preset(bar):
+    bar.bar.pin.param.trigger("clicks")
+    bar.inputs.block_mass = 70.0
+    bar.bar.pin.param.trigger("clicks")
+    bar.bar.name_box.value = MARKUP
+    bar.bar.pin.param.trigger("clicks")
+    assert [pin.name for pin in bar.pins.pinned] == ["Booted block, low mass", "Design 1", MARKUP]
+    assert bar.bar.name_box.value == ""
+    assert bar.pins.pinned[1].design.block_mass == 70.0
+
+
+def test_a_ninth_pin_is_refused_and_its_name_kept(bar):
+    for _ in range(MOST):
+        bar.bar.pin.param.trigger("clicks")
+    bar.bar.name_box.value = "one more"
+    bar.bar.pin.param.trigger("clicks")
+    assert len(bar.pins.pinned) == MOST
+    assert bar.bar.name_box.value == "one more"
+
+
+def test_the_drawing_follows_the_sliders_while_it_is_in_sight(picture):
+    inputs = DesignInputs()
+    track = Track(inputs, Outcome(picture=picture("slab-track")))
+    assert track.drawing.object == ""
+    track.look(in_sight=True)
+    inputs.block_mass = 222.0
+    assert "222 kg" in track.drawing.object
+    track.look(in_sight=False)
+    inputs.block_mass = 111.0
+    assert "222 kg" in track.drawing.object
+    inputs.two_stage = False
+    track.look(in_sight=True)
+    assert "kg" in track.drawing.object
+    assert "111 kg" not in track.drawing.object

@@ -1,0 +1,164 @@
+"""The checks: computed only while looked at, and every figure in a sentence is that of the picture."""
+
+import asyncio
+import re
+import threading
+
+import numpy as np
+import pytest
+
+import trackig_core as tig
+from dashboard.compute import checker as checker_module
+from dashboard.compute.checker import Checker, check
+from dashboard.session.inputs import Presentation
+from dashboard.session.results import Checked, Outcome
+from dashboard.views.verify import Verify, largest
+
+
+@pytest.fixture
+def outcome():
+    return Outcome()
+
+
+@pytest.fixture
+def view(outcome):
+    return Verify(outcome, Presentation())
+
+
+def test_nothing_is_checked_that_nobody_looks_at(outcome, picture, monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        checker_module, "check", lambda shown: asked.append(shown) or Checked(shown, None, "x")
+    )
+
+    async def session():
+        Checker(outcome)
+        outcome.picture = picture("slab-track")
+        await asyncio.sleep(0.05)
+        assert asked == []
+        outcome.checking = True
+        await asyncio.sleep(0.2)
+        assert asked == [picture("slab-track")]
+        outcome.picture = picture("booted-sleeper")
+        await asyncio.sleep(0.2)
+        assert outcome.checked.picture is picture("booted-sleeper")
+
+    asyncio.run(session())
+
+
+def test_only_the_newest_picture_is_checked_next(outcome, picture, monkeypatch):
+    go_on, asked = threading.Event(), []
+
+    def slow(shown):
+        asked.append(shown)
+        go_on.wait(10)
+        return Checked(shown, None, "x")
+
+    monkeypatch.setattr(checker_module, "check", slow)
+
+    async def session():
+        Checker(outcome)
+        outcome.param.update(picture=picture("slab-track"), checking=True)
+        while not asked:
+            await asyncio.sleep(0.01)
+        for name in ("booted-sleeper", "booted-block-low-mass", "booted-block-high-mass"):
+            outcome.picture = picture(name)
+        await asyncio.sleep(0.05)
+        go_on.set()
+        while outcome.checked is None or outcome.checked.picture is not outcome.picture:
+            await asyncio.sleep(0.01)
+
+    asyncio.run(asyncio.wait_for(session(), 20))
+    assert asked == [picture("slab-track"), picture("booted-block-high-mass")]
+
+
+def test_a_check_is_the_librarys(picture):
+    shown = picture("booted-sleeper")
+    checked = check(shown)
+    assert checked.problem == ""
+    expected = tig.verify(shown.solution)
+    np.testing.assert_array_equal(checked.theory.exact.energy, expected.exact.energy)
+    assert check(shown) is checked
+
+
+def test_a_track_without_exact_answer_says_why(outcome, view, fake_picture):
+    without = tig.PRESETS["slab-track"].replace(pad_loss_factor=0.0)
+    outcome.checked = check(fake_picture(without))
+    assert "more than 0" in view.words["run"].object
+
+
+@pytest.mark.parametrize("preset", ["booted-block-low-mass", "slab-track"])
+def test_run_and_exact_answer_are_drawn_with_their_difference_in_words(outcome, view, picture, preset):
+    outcome.checked = check(picture(preset))
+    exact = tig.solve(tig.PRESETS[preset], "exact").insertion_gain
+    data = view.comparison.bands.data
+    np.testing.assert_allclose(data["exact"], exact, atol=1e-9)
+    np.testing.assert_allclose(data["run"], picture(preset).solution.insertion_gain, atol=1e-9)
+    np.testing.assert_allclose(data["difference"], data["run"] - data["exact"])
+    ends = view.difference.model.y_range
+    assert ends.start < data["difference"].min()
+    assert data["difference"].max() < ends.end
+    said, band = re.search(r"difference ([\d.]+) dB at ([\d.]+) Hz", view.words["run"].object).groups()
+    worst = np.argmax(np.abs(data["difference"]))
+    assert float(said) == pytest.approx(abs(data["difference"][worst]), abs=0.005)
+    assert band == tig.BAND_LABELS[worst]
+
+
+def test_the_checks_follow_the_choice_of_sum_and_reference(outcome, picture):
+    presentation = Presentation()
+    view = Verify(outcome, presentation)
+    outcome.checked = check(picture("booted-sleeper"))
+    presentation.param.update(reference="rigid", summation="coherent")
+    expected = tig.solve(tig.PRESETS["booted-sleeper"], "exact", reference="rigid", summation="coherent")
+    np.testing.assert_allclose(view.comparison.bands.data["exact"], expected.insertion_gain, atol=1e-9)
+    assert "coherent / rigid" in view.comparison.model.yaxis.axis_label
+
+
+def test_small_differences_are_told_as_they_are():
+    differences = np.zeros(21)
+    assert largest(differences) == "below 0.000001 dB"
+    differences[3] = -0.00034
+    assert largest(differences) == "0.0003 dB at 10 Hz"
+    differences[5] = 0.116
+    assert largest(differences) == "0.12 dB at 16 Hz"
+
+
+@pytest.mark.parametrize("preset", list(tig.PRESETS))
+def test_the_peer_stands_beside_the_twin(view, preset):
+    view.peer.value = preset
+    peer = tig.peer_receptances()[preset]
+    np.testing.assert_allclose(view.receptance.peer.data["euler"], 1e12 * np.abs(peer.euler))
+    np.testing.assert_allclose(view.receptance.peer.data["timoshenko"], 1e12 * np.abs(peer.timoshenko))
+    twin = view.receptance.twin.data
+    at_peer = np.interp(np.log(peer.frequency), np.log(twin["frequency"]), twin["receptance"])
+    np.testing.assert_allclose(at_peer[:10], 1e12 * np.abs(peer.euler)[:10], rtol=0.01)
+    said = float(re.search(r"within ([\d.]+) dB", view.words["peer"].object).group(1))
+    assert 0 < said < 0.07
+
+
+def test_convergence_is_drawn_with_its_slopes(outcome, view, picture):
+    shown = picture("booted-sleeper")
+    outcome.checked = check(shown)
+    theory, grid = outcome.checked.theory, shown.solution.grid
+    steps = view.time_step.errors.data
+    np.testing.assert_array_equal(steps["first"], theory.first_order_errors)
+    np.testing.assert_array_equal(steps["second"], theory.second_order_errors)
+    np.testing.assert_allclose(steps["one"] / steps["first"], 0.5, atol=0.1)
+    np.testing.assert_allclose(steps["two"] / steps["second"], 0.5, atol=0.15)
+    assert view.time_step.model.select_one({"name": "run_time_step"}).location == pytest.approx(1e6 * grid.dt)
+    lengths = view.element.errors.data
+    np.testing.assert_allclose(lengths["length"], 1000 * 0.75 / theory.elements_per_bay)
+    assert view.element.model.select_one({"name": "run_element"}).location == pytest.approx(250)
+
+
+def test_damping_is_drawn_against_what_was_stated(outcome, view, picture):
+    outcome.checked = check(picture("booted-sleeper"))
+    loss, stiffness = view.loss_factor.values.data, view.stiffness.values.data
+    assert np.abs(loss["pad"] / 0.2 - 1).max() < 0.051
+    np.testing.assert_array_equal(loss["boot_stated"], 0.2)
+    at_50 = np.interp(50, stiffness["frequency"], stiffness["boot"])
+    assert at_50 == pytest.approx(1, abs=1e-3)
+    assert "within 4.9%" in view.words["damping"].object
+    outcome.checked = check(picture("slab-track"))
+    assert np.isnan(view.loss_factor.values.data["boot"]).all()
+    np.testing.assert_array_equal(view.loss_factor.values.data["pad_stated"], 0.15)

@@ -1,0 +1,1 @@
+"""What is learnt from a design beyond its insertion gain: checks, simpler models, motion, damping."""

@@ -1,0 +1,179 @@
+"""Straight asymptotes of insertion gain: level below the resonances, so many decibels an octave above.
+
+Without loss the force that the chain of :mod:`trackig_core.analysis.lumped` passes into the ground, over
+that which a rigid track would, has no zeros and one pole per natural frequency f_i:
+
+    T(f) = 1 / product_i (1 - (f / f_i)^2)
+
+so that its level is 0 dB below all of them and falls by 40 log10 2 = 12.04 dB per octave more above each:
+12 above the resonance of one stage, 24 above the second of two stages. The straight lines meet at
+the natural frequencies. Between two, the curve is exactly as steep as its asymptote at their geometric mean.
+
+Against the straight reference line, which touches the spectrum at a tenth of the lowest frequency, all
+lines lie lower by 20 log10 T there (0.09 dB); an energy sum against the rigid track, by the share of the
+load's energy.
+
+Real tracks differ: a causal damper stiffens with frequency, which flattens the slopes of the chain, and in
+the beam waves run along the rail. :func:`measured_slopes` holds both against the straight lines.
+
+Hz, dB, dB per octave. The one rule: a line is drawn from the chain, a slope is measured where it is shown.
+"""
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from trackig_core.analysis.lumped import energy_share, lumped_frequencies, lumped_spectrum
+from trackig_core.bands import BAND_CENTRES, BAND_EDGES, LINE_FRACTION, decibels
+from trackig_core.frequency_domain.floquet_waves import exact_spectrum
+from trackig_core.frequency_domain.refinement import refuse_if_unbounded
+from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, summed_energy
+from trackig_core.track.design import DEFAULT_STEP
+
+PER_RESONANCE = -40 * math.log10(2)
+"""What each natural frequency adds to the slope above it [dB per octave]."""
+
+_SHORT = 2 ** (1 / 12)
+"""Half the interval over which a slope is measured, as a ratio [-]: a sixth of an octave in all."""
+
+
+@dataclass(frozen=True)
+class Asymptote:
+    """One straight line on axes of log frequency and decibels.
+
+    Attributes
+    ----------
+    frequency : tuple of float
+        Where it begins and ends [Hz].
+    level : tuple of float
+        Insertion gain at either end [dB].
+    slope : float
+        Its slope [dB per octave].
+    """
+
+    frequency: tuple[float, float]
+    level: tuple[float, float]
+    slope: float
+
+
+@dataclass(frozen=True)
+class MeasuredSlope:
+    """Slope of the exact models where an asymptote should be followed best.
+
+    Attributes
+    ----------
+    asymptote : Asymptote
+        The straight line.
+    frequency : float
+        Where the slopes are measured [Hz]: midway between two resonances, else at the end of the bands.
+    lumped, beam : float
+        Slope of the damped chain and of the beam model there [dB per octave].
+    """
+
+    asymptote: Asymptote
+    frequency: float
+    lumped: float
+    beam: float
+
+
+def gain_asymptotes(design, reference="line", summation="energy"):
+    """Return the straight asymptotes of insertion gain over the bands.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    reference, summation : str
+        As for :func:`trackig_core.insertion_gain`.
+
+    Returns
+    -------
+    tuple of Asymptote
+        Lines that join at the chain's natural frequencies, from the lowest to the highest band edge.
+
+    Raises
+    ------
+    ValueError
+        If ``reference`` or ``summation`` is not one of the choices.
+    """
+    check_choice("reference", reference, REFERENCES)
+    check_choice("summation", summation, SUMMATIONS)
+    corners = lumped_frequencies(design).coupled
+
+    def level(frequency):
+        falls = (max(0.0, math.log2(frequency / corner)) for corner in corners)
+        return _level_below(design, corners, reference, summation) + PER_RESONANCE * sum(falls)
+
+    low, high = float(BAND_EDGES[0]), float(BAND_EDGES[-1])
+    ends = [low, *(corner for corner in corners if low < corner < high), high]
+    return tuple(
+        Asymptote(
+            frequency=(start, end),
+            level=(level(start), level(end)),
+            slope=sum((PER_RESONANCE for corner in corners if corner <= start), start=0.0),
+        )
+        for start, end in itertools.pairwise(ends)
+    )
+
+
+def _level_below(design, corners, reference, summation):
+    """Return the insertion gain far below the resonances [dB]."""
+    if reference == "line":
+        anchor = LINE_FRACTION * corners[0]
+        return 20 * sum(math.log10(1 - (anchor / corner) ** 2) for corner in corners)
+    return 10 * math.log10(energy_share(design)) if summation == "energy" else 0.0
+
+
+def measured_slopes(design, summation="energy"):
+    """Return how steep the exact models are along each asymptote; the reference does not matter.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    summation : str
+        As for :func:`trackig_core.insertion_gain`.
+
+    Returns
+    -------
+    tuple of MeasuredSlope
+        One per asymptote.
+
+    Raises
+    ------
+    DesignError
+        If the exact answer has no bound, for want of any loss.
+    ValueError
+        If ``summation`` is not one of the choices.
+    """
+    refuse_if_unbounded(design)
+    lines = gain_asymptotes(design, summation=summation)
+    return tuple(
+        MeasuredSlope(
+            asymptote=line,
+            frequency=at,
+            lumped=_slope(lambda f: lumped_spectrum(design, f), at, summation),
+            beam=_slope(lambda f: exact_spectrum(design, f, DEFAULT_STEP), at, summation),
+        )
+        for line, at in zip(lines, _midway(lines), strict=True)
+    )
+
+
+def _midway(lines):
+    """Return where each line is followed best [Hz]."""
+    if len(lines) == 1:
+        return [float(BAND_CENTRES[-1] if lines[0].slope else BAND_CENTRES[0])]
+    between = [math.sqrt(line.frequency[0] * line.frequency[1]) for line in lines]
+    if lines[0].slope == 0:
+        between[0] = float(BAND_CENTRES[0])
+    between[-1] = float(BAND_CENTRES[-1])
+    return between
+
+
+def _slope(spectrum_at, frequency, summation):
+    """Return the slope of energy over frequency squared: that of insertion gain [dB per octave]."""
+    ends = np.array([frequency / _SHORT, frequency * _SHORT])
+    levels = decibels(summed_energy(spectrum_at(ends), summation) / ends**2)
+    return float(np.diff(levels)[0] / np.diff(np.log2(ends))[0])

@@ -1,0 +1,187 @@
+"""Where the resonances come from: natural frequencies against one varied field, chain beside beam.
+
+SI units and Hz. The chain is that of :mod:`trackig_core.analysis.lumped`, the beam's frequencies are those
+of :mod:`trackig_core.frequency_domain.natural_frequencies`. Where the two depart, :func:`departure` says
+why, from the design's numbers.
+
+Against the block's frequency with the rail held, the chain's upper one departs for two reasons and no other:
+its rail is held by the contact spring alone (lower), and the wheel that holds that spring recoils (higher).
+Against the loaded track, the chain's lower one departs because its rail has no mass (higher), because its
+blocks all move as much as the one under the wheel (lower), and because it has no waves: a wheel has
+no mode of its own above the frequency at which they begin to run.
+
+The one rule: a reason is given where it can be counted, never by the name of a design.
+"""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from trackig_core.analysis.lumped import effective_supports, lumped_frequencies
+from trackig_core.frequency_domain import natural_frequencies as modes
+from trackig_core.track.design import RANGES, DesignError
+from trackig_core.track.viscoelastic_law import laws
+
+FIELDS = tuple(name for name in RANGES if name not in ("mass_per_metre", "bending_stiffness"))
+"""Fields of a design that can be varied: all that are numbers."""
+
+NOTABLE = 0.05
+"""Relative difference of frequencies below which chain and beam are said to agree [-]."""
+
+_MOVING_RAIL = 0.75
+"""Part of the rail on n supports that moves with the wheel [-]: integral of phi^2 over that of phi."""
+
+
+@dataclass(frozen=True, eq=False)
+class FrequencySweep:
+    """Natural frequencies against one field of a design.
+
+    Attributes
+    ----------
+    field : str
+        The field that is varied.
+    values : numpy.ndarray (values,) [unit of the field]
+        Its values.
+    loaded_track, coupled_block, cut_on : numpy.ndarray (values,) [Hz]
+        Of the beam model: the wheel's bound mode, the block with the rail held (NaN when single-stage), and
+        where all bays move as one: no bound mode lies above it.
+    lumped_coupled, lumped_uncoupled : numpy.ndarray (frequencies, values) [Hz]
+        Of the chain: two rows, or one when single-stage. ``lumped_uncoupled`` holds the wheel with the block
+        held, and the block on its boot.
+    """
+
+    field: str
+    values: np.ndarray = field(repr=False)
+    loaded_track: np.ndarray = field(repr=False)
+    coupled_block: np.ndarray = field(repr=False)
+    cut_on: np.ndarray = field(repr=False)
+    lumped_coupled: np.ndarray = field(repr=False)
+    lumped_uncoupled: np.ndarray = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Departure:
+    """How far the chain's frequencies are from the beam's, and why.
+
+    Attributes
+    ----------
+    loaded_track : float
+        The chain's lower frequency over the beam's loaded-track frequency [-].
+    coupled_block : float or None
+        The chain's upper frequency over that of the block with the rail held [-]; None when single-stage.
+    reasons : tuple of str
+        One sentence for each that departs by more than :data:`NOTABLE`.
+    """
+
+    loaded_track: float
+    coupled_block: float | None
+    reasons: tuple[str, ...]
+
+
+def frequency_sweep(design, field, values):
+    """Return natural frequencies of a design as one of its fields takes other values.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    field : str
+        One of :data:`FIELDS`.
+    values : array_like (values,)
+        Values of the field [its unit].
+
+    Returns
+    -------
+    FrequencySweep
+        Frequencies, in some 20 ms for 60 values; a loss factor takes 7 ms a value for the fit of its law.
+
+    Raises
+    ------
+    DesignError
+        If there is no such field, or a value is not allowed.
+    """
+    if field not in FIELDS:
+        raise DesignError("field", field, f"one of {', '.join(FIELDS)}")
+    values = np.atleast_1d(np.asarray(values, dtype=float))
+    rows = [_frequencies(design.replace(**{field: value})) for value in values]
+    beam, coupled, uncoupled = (np.array(column).T for column in zip(*rows, strict=True))
+    return FrequencySweep(field, values, *beam, lumped_coupled=coupled, lumped_uncoupled=uncoupled)
+
+
+def _frequencies(design):
+    chain = lumped_frequencies(design)
+    beam = (
+        modes.loaded_track(design),
+        modes.coupled_block(design) or math.nan,
+        modes.cut_on(design)[0],
+    )
+    return beam, chain.coupled, chain.uncoupled
+
+
+def departure(design):
+    """Return how far the chain's frequencies are from the beam's, and why.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    Departure
+        Ratios, and sentences made from the design's numbers.
+    """
+    chain = lumped_frequencies(design).coupled
+    loaded, block = modes.loaded_track(design), modes.coupled_block(design)
+    reasons = []
+    if abs(chain[0] / loaded - 1) > NOTABLE:
+        reasons.append(_why_loaded_track(design, chain[0], loaded))
+    if block is None:
+        return Departure(chain[0] / loaded, None, tuple(reasons))
+    if abs(chain[1] / block - 1) > NOTABLE:
+        reasons.append(_why_coupled_block(design, chain[1], block))
+    return Departure(chain[0] / loaded, chain[1] / block, tuple(reasons))
+
+
+def _why_loaded_track(design, chain, beam):
+    """Return why the chain's lower frequency is not the beam's loaded-track frequency [Hz]."""
+    begin, supports = modes.cut_on(design)[0], effective_supports(design)
+    says = f"The chain puts the loaded track at {chain:.0f} Hz, the beam at {beam:.0f} Hz: "
+    if chain > begin * (1 - NOTABLE):
+        return (
+            f"{says}waves begin to run along the track at {begin:.0f} Hz, and no wheel, however light, has "
+            "a mode of its own above that. The chain has no waves."
+        )
+    if chain > beam:
+        rail = _MOVING_RAIL * supports * design.fastener_spacing * design.rail.mass_per_metre
+        return (
+            f"{says}the chain's rail has no mass, but some {rail:.0f} kg of rail move with the wheel, "
+            f"{rail / design.wheel_mass:.0%} of its mass."
+        )
+    if design.two_stage:
+        return (
+            f"{says}the chain lets {supports:.1f} blocks of {design.block_mass:.0f} kg move as much as the "
+            "one under the wheel. In the beam those farther out move less, and weigh less on the wheel."
+        )
+    return (
+        f"{says}the rail spreads the load over {supports:.1f} supports only, too few to pass for "
+        "the even foundation of the chain."
+    )
+
+
+def _why_coupled_block(design, chain, beam):
+    """Return why the chain's upper frequency is not that of the block with the rail held [Hz]."""
+    supports, (pad, _) = effective_supports(design), laws(design)
+    says = f"The chain puts the block at {chain:.0f} Hz, with the rail held it is at {beam:.0f} Hz: "
+    if chain < beam:
+        pads = supports * pad.stiffness(beam) / design.contact_stiffness
+        return (
+            f"{says}the chain's rail is held by the contact spring alone, and the pads under it are "
+            f"{pads:.0%} as stiff as that spring, so that it gives way."
+        )
+    blocks = supports * design.block_mass / design.wheel_mass
+    return (
+        f"{says}the blocks that move weigh {blocks:.0%} of the wheel, which recoils and so does not hold "
+        "the rail. The beam's figure is that of a block under a rail that does not move."
+    )

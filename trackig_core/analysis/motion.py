@@ -1,0 +1,141 @@
+"""The film: how rail, blocks and wheel move after the step, from a run of its own.
+
+A run as at live fidelity (see :mod:`trackig_core.time_domain.adaptive_grid`), short, that records every
+rail element and every block near the wheel. Frames are samples of the low-passed displacements, SI units,
+positive towards the ground; the track to the left of the wheel is the mirror image of that to the right.
+The wheel begins one step below a rail at rest, squeezing the contact spring (see
+:mod:`trackig_core.track.design`); the filter rounds that jump off over the millisecond around time zero.
+
+The one rule: a frame is what the solver stepped through; nothing is interpolated, in time or along the rail.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from trackig_core.frequency_domain.natural_frequencies import loaded_track
+from trackig_core.time_domain import adaptive_grid
+from trackig_core.time_domain.decimation import RECORD_RATE
+from trackig_core.time_domain.grid import make_grid
+from trackig_core.time_domain.time_stepping import Probes, Run
+from trackig_core.track.design import DEFAULT_STEP
+
+DURATION = 0.3
+"""Length of the film [s]: some ten periods of an ordinary loaded track."""
+
+STRIDE = 2
+"""Samples of the record per frame [-]: 2048 frames a second, three a period at the filter's edge."""
+
+BAYS = 12
+"""Bays shown to either side of the wheel unless others are asked for [-]."""
+
+MOST_BAYS = 60
+"""Bays that may be asked for [-]: a film stays below 2 MB."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Displacements after the step, from the wheel to one side.
+
+    Attributes
+    ----------
+    time : numpy.ndarray (frames,) [s]
+        Time of each frame; it begins shortly before zero because the low-pass filter looks ahead.
+    position : numpy.ndarray (elements,) [m]
+        Rail elements, counted from the wheel.
+    support_position : numpy.ndarray (supports,) [m]
+        Supports, counted from the wheel.
+    wheel : numpy.ndarray (frames,) [m]
+        Displacement of the wheel.
+    rail : numpy.ndarray (frames, elements) [m]
+        Displacement of the rail.
+    block : numpy.ndarray (frames, supports) [m] or None
+        Displacement of the blocks; None when single-stage.
+    step : float [m]
+        Height of the step.
+    """
+
+    time: np.ndarray = field(repr=False)
+    position: np.ndarray = field(repr=False)
+    support_position: np.ndarray = field(repr=False)
+    wheel: np.ndarray = field(repr=False)
+    rail: np.ndarray = field(repr=False)
+    block: np.ndarray | None = field(repr=False)
+    step: float
+
+
+def film(design, bays=BAYS, step=DEFAULT_STEP, cancelled=None):
+    """Return how a track moves in the first 0.3 s after the step.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    bays : int
+        Bays to one side of the wheel, 1 to 60.
+    step : float
+        Step that squeezes the contact spring [m].
+    cancelled : callable, optional
+        Asked now and then; the run ends when it answers true.
+
+    Returns
+    -------
+    Motion
+        Some 600 frames.
+
+    Raises
+    ------
+    DesignError
+        If the exact answer has no bound, for want of any loss: no grid can then be chosen.
+    RunTooLargeError
+        If the run would need more than 2 GB or 60 s.
+    SolveCancelled
+        If ``cancelled`` answered true.
+    ValueError
+        If ``bays`` is not from 1 to 60.
+    """
+    if not 1 <= bays <= MOST_BAYS:
+        raise ValueError(f"bays = {bays!r}: give a whole number from 1 to {MOST_BAYS}")
+    grid = film_grid(design, bays)
+    elements = np.arange(bays * grid.elements_per_bay + 1)
+    supports = np.arange(bays + 1)
+    probes = Probes(rail=tuple(elements), blocks=tuple(supports))
+    run = Run(design, grid, memory_order=adaptive_grid.MEMORY_ORDER, step=step, probes=probes)
+    samples = run.collect(grid.steps, cancelled=cancelled)
+    moved = samples[::STRIDE, grid.half_bays :]
+    wheel, rail, block = np.split(moved, [1, 1 + elements.size], axis=1)
+    return Motion(
+        time=run.filter.times(len(samples))[::STRIDE],
+        position=elements * grid.dx,
+        support_position=supports * design.fastener_spacing,
+        wheel=wheel[:, 0],
+        rail=rail,
+        block=block if design.two_stage else None,
+        step=step,
+    )
+
+
+def film_grid(design, bays):
+    """Return the grid of a film: live fidelity's, its ring no shorter than what is shown.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    bays : int
+        Bays to one side of the wheel.
+
+    Returns
+    -------
+    Grid
+        The grid; its steps are those of the film.
+
+    Raises
+    ------
+    DesignError, RunTooLargeError
+        As in :func:`film`.
+    """
+    chosen = adaptive_grid.plan(design, loaded_track(design)).grid
+    # the record is whole frames long, whatever the time step
+    record = round(DURATION * RECORD_RATE) / RECORD_RATE
+    return make_grid(design, chosen.dt, bays=max(chosen.bays, 2 * bays + 1), record=record)

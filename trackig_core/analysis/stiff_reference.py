@@ -1,0 +1,121 @@
+"""The "very stiff" track as a reference: the false peak that its contact spring puts there.
+
+A promoter's reference is often a run of the same model on supports so stiff that they hardly move. The wheel
+then still bounces on the contact spring, at sqrt(k_H/m_w)/2 pi, near 180 Hz for the wheels of the paper, and
+nothing but the pads damps it. Used as it is, that peak puts a false dip into the insertion gain of every
+track. The paper therefore stiffens the contact of its reference too, until the peak has left the bands:
+what is left is the inertia of the wheel, the straight line of 9 dB per octave, which is the rigid track's.
+
+Hz, dB. Source: the paper (see :mod:`trackig_core.track.design`). The one rule: both references are solved,
+exactly, and held against the rigid track; neither is drawn.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from trackig_core.bands import BAND_EDGES, decibels
+from trackig_core.frequency_domain.floquet_waves import exact_spectrum
+from trackig_core.frequency_domain.natural_frequencies import loaded_track
+from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.levels.insertion_gain import integrate_bands
+from trackig_core.track.design import DEFAULT_STEP
+
+STIFF = 1e12
+"""Stiffness of a "very stiff" pad, and of a stiffened contact [N/m]: a thousand times an ordinary contact."""
+
+STIFF_LOSS = 0.1
+"""Loss factor of a "very stiff" pad [-]; it has next to nothing to lose."""
+
+
+@dataclass(frozen=True, eq=False)
+class StiffReferences:
+    """Very stiff tracks with the real contact spring, and with one that is very stiff too.
+
+    Attributes
+    ----------
+    frequency : numpy.ndarray (frequencies,) [Hz]
+        Frequencies of the narrow-band levels.
+    real, stiffened : numpy.ndarray (frequencies,) [dB]
+        Energy of the force into the ground over that of the rigid track.
+    contact_resonance : float [Hz]
+        The wheel on the real contact spring alone, on ground that does not move.
+    gain_real, gain_stiffened, gain_rigid : numpy.ndarray (21,) [dB]
+        Insertion gain of the design per band against each of the two, and against the rigid track.
+    """
+
+    frequency: np.ndarray = field(repr=False)
+    real: np.ndarray = field(repr=False)
+    stiffened: np.ndarray = field(repr=False)
+    contact_resonance: float
+    gain_real: np.ndarray = field(repr=False)
+    gain_stiffened: np.ndarray = field(repr=False)
+    gain_rigid: np.ndarray = field(repr=False)
+
+
+def very_stiff(design, stiffen_contact):
+    """Return a design's rail and wheel on supports that hardly move.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track whose rail, spacing, wheel and contact spring are kept.
+    stiffen_contact : bool
+        Whether the contact spring is made as stiff as the supports.
+
+    Returns
+    -------
+    TrackDesign
+        A single-stage track.
+    """
+    return design.replace(
+        pad_stiffness=STIFF,
+        pad_loss_factor=STIFF_LOSS,
+        block_mass=None,
+        boot_stiffness=None,
+        boot_loss_factor=None,
+        contact_stiffness=STIFF if stiffen_contact else design.contact_stiffness,
+    )
+
+
+def stiff_references(design, frequency):
+    """Hold a design against very stiff tracks, with and without their false peak.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    frequency : array_like (frequencies,)
+        Frequencies of the narrow-band levels [Hz]; that of the contact resonance is added.
+
+    Returns
+    -------
+    StiffReferences
+        Levels of the references, and insertion gain against them, by summed energy.
+
+    Raises
+    ------
+    DesignError
+        If the design's exact answer has no bound, for want of any loss.
+    """
+    refuse_if_unbounded(design)
+    resonance = float(np.sqrt(design.contact_stiffness / design.wheel_mass) / (2 * np.pi))
+    frequency = np.union1d(np.asarray(frequency, dtype=float), resonance)
+    rigid = (2 * np.pi * frequency * design.wheel_mass * DEFAULT_STEP) ** 2
+    references = [very_stiff(design, stiffen_contact) for stiffen_contact in (False, True)]
+    levels = [decibels(exact_spectrum(each, frequency, DEFAULT_STEP).energy / rigid) for each in references]
+    energies = [_band_energy(each) for each in references]
+    own = _band_energy(design)
+    gains = [decibels(own / energy) for energy in (*energies, _rigid_band_energy(design))]
+    return StiffReferences(frequency, *levels, resonance, *gains)
+
+
+def _rigid_band_energy(design):
+    """Return the energy per band of the wheel's inertia force, (m_w w step)^2, integrated (21,) [N2 s]."""
+    return (2 * np.pi * design.wheel_mass * DEFAULT_STEP) ** 2 * np.diff(BAND_EDGES**3) / 3
+
+
+def _band_energy(design):
+    """Return the energy of the force into the ground per band (21,) [N2 s]."""
+    spectrum = banded_spectrum(design, loaded_track(design))
+    return integrate_bands(spectrum.frequency, spectrum.energy)

@@ -1,0 +1,1 @@
+"""The frequency-domain solution: the same lattice in closed form, frequency by frequency."""

@@ -1,0 +1,165 @@
+"""The steady shape: how rail, blocks and wheel move at one frequency, by the exact twin.
+
+Complex displacements per unit roughness, time dependence exp(+i w t), positive towards the ground: at the
+phase angle p the track stands at Re(displacement exp(i p)). SI units and Hz. Source of the model: the
+paper (see :mod:`trackig_core.track.design`).
+
+Between supports each of the two waves of :mod:`trackig_core.frequency_domain.floquet_waves` obeys the free
+rail,
+
+    u[i-2] - 4 u[i-1] + 6 u[i] - 4 u[i+1] + u[i+2] = r^2 u[i],    r^2 = m w^2 / (EI/dx^3),
+
+with u[i + elements] = multiplier u[i] from bay to bay: as many linear equations as there are elements
+between two supports. The solution decays from the wheel outwards, and two waves are all that decay.
+
+The one rule: no element is interpolated: each is the lattice's own exact displacement.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from trackig_core.frequency_domain.floquet_waves import INFINITE, contact_force, dynamic_stiffness, waves
+from trackig_core.track.viscoelastic_law import laws
+
+_FOURTH_DIFFERENCE = ((-2, 1.0), (-1, -4.0), (0, 6.0), (1, -4.0), (2, 1.0))
+"""Offset and weight of the neighbours by which a rail element is bent [-]."""
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyShape:
+    """Displacements per unit roughness between wheel and rail, positive towards the ground.
+
+    Attributes
+    ----------
+    frequency : numpy.ndarray (frequencies,) [Hz]
+        Frequencies.
+    position : numpy.ndarray (elements,) [m]
+        Rail elements, counted from the wheel.
+    rail : numpy.ndarray of complex (elements, frequencies) [-]
+        Displacement of the rail, every element.
+    support_position : numpy.ndarray (supports,) [m]
+        Supports, counted from the wheel.
+    block : numpy.ndarray of complex (supports, frequencies) [-] or None
+        Displacement of the blocks; None when single-stage.
+    wheel : numpy.ndarray of complex (frequencies,) [-]
+        Displacement of the wheel.
+    """
+
+    frequency: np.ndarray = field(repr=False)
+    position: np.ndarray = field(repr=False)
+    rail: np.ndarray = field(repr=False)
+    support_position: np.ndarray = field(repr=False)
+    block: np.ndarray | None = field(repr=False)
+    wheel: np.ndarray = field(repr=False)
+
+
+def steady_shape(design, frequency, bays=12, lattice=INFINITE):
+    """Return how the track moves at given frequencies, some bays either side of the wheel.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track and its wheel.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz], greater than zero.
+    bays : int
+        Bays to either side of the wheel, one or more.
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    SteadyShape
+        Displacements per unit roughness.
+
+    Raises
+    ------
+    ValueError
+        If a frequency is not greater than zero, or ``bays`` is less than one.
+    """
+    if bays < 1:
+        raise ValueError(f"bays = {bays!r}: give a whole number, 1 or more")
+    per_bay = lattice.elements_per_bay
+    elements = np.arange(-bays * per_bay, bays * per_bay + 1)
+    frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
+    contact = contact_force(design, frequency, lattice)
+    rail = contact * rail_receptance(design, frequency, elements, lattice)
+    block = None
+    if design.two_stage:
+        pad, boot = (dynamic_stiffness(law, frequency, lattice) for law in laws(design))
+        inertia = design.block_mass * lattice.frequency_squared(frequency)
+        block = rail[::per_bay] * pad / (pad + boot - inertia)
+    return SteadyShape(
+        frequency=frequency,
+        position=elements * design.fastener_spacing / per_bay,
+        rail=rail,
+        support_position=elements[::per_bay] // per_bay * design.fastener_spacing,
+        block=block,
+        # the contact pushes the wheel up: -m w^2 W = -contact
+        wheel=contact / (design.wheel_mass * lattice.frequency_squared(frequency)),
+    )
+
+
+def rail_receptance(design, frequency, element=0, lattice=INFINITE):
+    """Return the displacement of any rail element per unit force on the rail over support 0.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    frequency : array_like (frequencies,)
+        Frequencies [Hz], greater than zero.
+    element : int or numpy.ndarray of int (elements,)
+        Number of the element, counted from the force; each ``elements_per_bay``-th is over a support.
+    lattice : Lattice
+        What to solve.
+
+    Returns
+    -------
+    numpy.ndarray of complex (frequencies,) or (elements, frequencies)
+        Receptance [m/N].
+
+    Raises
+    ------
+    ValueError
+        If a frequency is not greater than zero.
+    """
+    track = waves(design, frequency, lattice)
+    shapes = _bay_shapes(design, track, lattice.elements_per_bay)
+    away = np.abs(np.asarray(element))
+    if lattice.bays is None:
+        shape = _wave(track, shapes, away)
+    else:
+        around = lattice.bays * lattice.elements_per_bay
+        away = away % around
+        # waves that went round the ring the other way, and any number of times
+        shape = _wave(track, shapes, away) + _wave(track, shapes, around - away)
+        shape = shape / (1 - track.multipliers**lattice.bays)
+    return np.sum(track.amplitudes * shape, axis=-2)
+
+
+def _wave(track, shapes, element):
+    """Return both waves at given elements (elements, 2, frequencies) [-]."""
+    bay, within = np.divmod(element, len(shapes))
+    return shapes[within] * track.multipliers ** bay[..., None, None]
+
+
+def _bay_shapes(design, track, per_bay):
+    """Return both waves within one bay, 1 over the support that it begins with (per_bay, 2, frequencies)."""
+    dx = design.fastener_spacing / per_bay
+    inertia = design.rail.mass_per_metre * dx**4 / design.rail.bending_stiffness * track.frequency_squared
+    multipliers = track.multipliers
+    matrix = np.zeros((*multipliers.shape, per_bay - 1, per_bay - 1), dtype=complex)
+    load = np.zeros((*multipliers.shape, per_bay - 1, 1), dtype=complex)
+    for row in range(per_bay - 1):
+        matrix[..., row, row] -= inertia
+        for offset, weight in _FOURTH_DIFFERENCE:
+            bay, within = divmod(row + 1 + offset, per_bay)
+            share = weight * multipliers**bay
+            if within == 0:
+                load[..., row, 0] -= share
+            else:
+                matrix[..., row, within - 1] += share
+    between = np.linalg.solve(matrix, load)[..., 0]
+    return np.concatenate([np.ones((1, *multipliers.shape)), np.moveaxis(between, -1, 0)])

@@ -1,0 +1,1 @@
+"""From a force spectrum to levels per band: insertion gain, specification, source."""

@@ -1,0 +1,115 @@
+"""From a force spectrum to insertion gain: the reference track, and the bands.
+
+Hz, N2 s2 and dB. Source: the paper (see :mod:`trackig_core.track.design`) for the straight reference line
+and the energy sum; IEC 61260-1 for the bands.
+
+The one rule: bands are integrated to their exact edges, whatever the spacing of the spectrum.
+"""
+
+import numpy as np
+from scipy.interpolate import CubicSpline, make_interp_spline
+
+from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
+from trackig_core.results import InsertionGain
+
+REFERENCES = ("line", "rigid")
+"""References: the paper's straight line, or the exact rigid track."""
+
+SUMMATIONS = ("energy", "coherent")
+"""Sums over the supports: of squared forces (the paper), or of forces."""
+
+ANCHOR_POINTS = 8
+"""Points of the spectrum on either side of the reference line's anchor that are joined by a spline [-]; it
+forgets what lies further away by a factor of four per point."""
+
+
+def insertion_gain(spectrum, design, loaded_track, reference="line", summation="energy"):
+    """Return the insertion gain of a track per one-third-octave band.
+
+    Parameters
+    ----------
+    spectrum : ForceSpectrum
+        Energy of the force into the ground.
+    design : TrackDesign
+        The track, for the mass of its wheel.
+    loaded_track : float
+        Its loaded-track frequency [Hz].
+    reference : str
+        ``"line"``: the straight line (9 dB per octave in bands) through the track's own spectrum at a
+        tenth of its loaded-track frequency, or at the nearest end of the spectrum. ``"rigid"``: the
+        inertia force of the wheel alone.
+    summation : str
+        ``"energy"``: squared support forces are summed. ``"coherent"``: forces are summed.
+
+    Returns
+    -------
+    InsertionGain
+        Levels and the energies behind them.
+
+    Raises
+    ------
+    ValueError
+        If ``reference`` or ``summation`` is not one of the above.
+    """
+    check_choice("reference", reference, REFERENCES)
+    check_choice("summation", summation, SUMMATIONS)
+    energy = summed_energy(spectrum, summation)
+    frequency = spectrum.frequency
+    if reference == "line":
+        # E grows as f^2 here: E / f^2 is nearly flat, so it may be interpolated between bins
+        anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
+        near = np.searchsorted(frequency, anchor)
+        around = slice(max(0, near - ANCHOR_POINTS), near + ANCHOR_POINTS)
+        curve = make_interp_spline(frequency[around], energy[around] / frequency[around] ** 2)
+        height = float(curve(anchor))
+    else:
+        # E = (m_w w^2 step)^2 / w^2
+        height = (2 * np.pi * design.wheel_mass * spectrum.step) ** 2
+    band_energy = integrate_bands(frequency, energy)
+    reference_energy = height * np.diff(BAND_EDGES**3) / 3
+    return InsertionGain(
+        levels=decibels(band_energy / reference_energy),
+        band_energy=band_energy,
+        reference_energy=reference_energy,
+        reference=reference,
+        summation=summation,
+    )
+
+
+def summed_energy(spectrum, summation):
+    """Return the energy of a spectrum by the chosen sum over the supports (frequencies,) [N2 s2]."""
+    return spectrum.energy if summation == "energy" else spectrum.coherent_energy
+
+
+def check_choice(name, value, choices):
+    """Raise a ValueError that names the choices if ``value`` is none of them."""
+    if value not in choices:
+        raise ValueError(f"{name} = {value!r}: give {' or '.join(repr(choice) for choice in choices)}")
+
+
+def integrate_bands(frequency, density):
+    """Integrate a spectral density over the one-third-octave bands.
+
+    The density is joined by a cubic spline, which is integrated to the exact band edges: a resonance
+    three points wide is then still within 0.001 dB, where weighted bins miss by ten times as much.
+
+    Parameters
+    ----------
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies [Hz], ascending, evenly spaced or not, covering the bands from 5 Hz to 500 Hz.
+    density : numpy.ndarray (frequencies,)
+        Density at those frequencies [unit/Hz].
+
+    Returns
+    -------
+    numpy.ndarray (21,)
+        Integral over each band [unit].
+    """
+    spline = CubicSpline(frequency, density)
+    inner = (frequency > BAND_EDGES[0]) & (frequency < BAND_EDGES[-1])
+    nodes = np.union1d(frequency[inner], BAND_EDGES)
+    at_nodes, between = spline(nodes), spline((nodes[:-1] + nodes[1:]) / 2)
+    # Simpson's rule is exact for cubics. Panels are summed band by band: the difference of one running sum
+    # would lose bands that lie 160 dB below others.
+    panels = np.diff(nodes) * (at_nodes[:-1] + 4 * between + at_nodes[1:]) / 6
+    return np.add.reduceat(panels, np.searchsorted(nodes, BAND_EDGES[:-1]))

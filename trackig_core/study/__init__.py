@@ -1,0 +1,1 @@
+"""Studies: designs, specification and source, as objects and as TOML."""

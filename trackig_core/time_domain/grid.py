@@ -1,0 +1,225 @@
+"""The grid in space and time: how a design is cut into elements and steps.
+
+A ring of bays, each ``elements_per_bay`` (three) elements long, with a support (S) under the first
+element of each bay and the wheel (W) over support 0. Ring and load are symmetric about that
+support, so only half of the ring is stepped:
+
+    element    -2   -1  |  0    1    2  |  3    4    5  | ... |  E s  ...  | ...   half | mirrored
+    bay          ghost  |     bay 0     |     bay 1     |     |   bay s    |   last bay | ghost
+                        |  W            |               |     |            |            |
+    rail      --o----o--|--o----o----o--|--o----o----o--|-...-|--o----o----|--o----o----o----o--
+    pad                 |  S            |  S            |     |  S         |  S         :
+    block               |  #            |  #            |     |  #         |  #         :
+    boot      ..........|..S............|..S............|.....|..S.........|..S.........:.......
+                        ^ mirror: element -i moves as i                mid-span mirror ^
+
+An odd number of bays puts the far mirror in the middle of the last bay.
+:mod:`trackig_core.time_domain.memory_layout` shows how this lies in memory.
+
+SI units. Source: the paper (see :mod:`trackig_core.track.design`), sections on the grid and on stability.
+The one rule: a grid that exists is stable.
+"""
+
+import math
+from dataclasses import dataclass
+
+from trackig_core.time_domain.decimation import RECORD_RATE
+from trackig_core.track.viscoelastic_law import laws
+
+ELEMENTS_PER_BAY = 3
+"""Rail elements between neighbouring supports [-]; the paper."""
+
+RING_BAYS = 667
+"""Supports around the ring [-]: the paper's 2000 elements, made divisible by three."""
+
+FEWEST_BAYS = 17
+"""Fewest supports around a ring [-]: fewer do not fill the kernel's lanes."""
+
+PAPER_TIME_STEP = 1.0 / 131072
+"""The paper's time step [s]."""
+
+PAPER_RECORD = 2.0
+"""Length of the record [s]: 262144 of the paper's steps."""
+
+SHORTEST_RECORD = 0.01
+"""Shortest record that can be asked for [s]."""
+
+LONGEST_RECORD = 16.0
+"""Length to which a record may be doubled while the force has not died down [s]."""
+
+MEMORY_LIMIT = 2e9
+"""Bytes that a run may need; one that needs more is refused."""
+
+DURATION_LIMIT = 60.0
+"""Seconds that a run may take; one that would take longer is refused."""
+
+STEP_RATE = 4e8
+"""Rail elements advanced by one time step per second [1/s]: a modest core of 2020, so that estimates err
+towards refusing."""
+
+
+class RunTooLargeError(ValueError):
+    """A run would need more memory or time than is allowed; it was not begun."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Elements and steps of one run.
+
+    Attributes
+    ----------
+    bays : int
+        Supports around the ring, odd.
+    elements_per_bay : int
+        Rail elements between supports.
+    dx : float [m]
+        Length of a rail element.
+    dt : float [s]
+        Time step.
+    steps : int
+        Time steps of the record; a record that is extended takes more.
+    notes : tuple of str
+        What was changed against the paper's grid, and why.
+    """
+
+    bays: int
+    elements_per_bay: int
+    dx: float
+    dt: float
+    steps: int
+    notes: tuple[str, ...] = ()
+
+    @property
+    def elements(self) -> int:
+        """Rail elements around the ring."""
+        return self.bays * self.elements_per_bay
+
+    @property
+    def half_bays(self) -> int:
+        """Bays that are stored: support 0 and those on one side of it."""
+        return (self.bays + 1) // 2
+
+    def duration_estimate(self, record):
+        """Return the time that a record of given length [s] would take on a modest core [s]."""
+        return record / self.dt * self.half_bays * self.elements_per_bay / STEP_RATE
+
+    def memory_estimate(self, record):
+        """Return the memory that a record of given length [s] would take [bytes]."""
+        # all supports at the decimated rate, copied up to twice on the way to the spectrum
+        return 3 * 8 * self.half_bays * record * RECORD_RATE
+
+    def can_afford(self, record):
+        """Return whether a record of given length [s] keeps within the limits of time and memory."""
+        return (
+            self.duration_estimate(record) <= DURATION_LIMIT and self.memory_estimate(record) <= MEMORY_LIMIT
+        )
+
+
+def stable_time_step(design, dx):
+    """Return a time step below which the explicit scheme is stable for certain.
+
+    Gershgorin's bound on the highest natural frequency of the undamped lattice with every spring
+    at its instantaneous (stiffest) value: each row of the mass-weighted stiffness matrix is summed
+    in magnitude. Leap-frog stepping is stable for dt < 2 / omega_max.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    dx : float
+        Length of a rail element [m].
+
+    Returns
+    -------
+    float
+        Largest safe time step [s].
+    """
+    pad_law, boot_law = laws(design)
+    pad = pad_law.instantaneous
+    element_mass = design.rail.mass_per_metre * dx
+    bending = 16 * design.rail.bending_stiffness / (design.rail.mass_per_metre * dx**4)
+    rows = [
+        bending + 2 * (pad + design.contact_stiffness) / element_mass,
+        2 * design.contact_stiffness / design.wheel_mass,
+    ]
+    if design.two_stage:
+        rows.append((2 * pad + boot_law.instantaneous) / design.block_mass)
+    return 2 / math.sqrt(max(rows))
+
+
+def make_grid(
+    design,
+    time_step=PAPER_TIME_STEP,
+    elements_per_bay=ELEMENTS_PER_BAY,
+    bays=RING_BAYS,
+    record=PAPER_RECORD,
+):
+    """Cut a design into elements and steps, halving the time step until it is stable.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    time_step : float
+        Time step wanted [s].
+    elements_per_bay : int
+        Rail elements between supports, two or more.
+    bays : int
+        Supports around the ring, odd and 17 or more.
+    record : float
+        Length of the record [s].
+
+    Returns
+    -------
+    Grid
+        A stable grid; its notes say when and why the time step was halved.
+
+    Raises
+    ------
+    RunTooLargeError
+        If a run on the grid would need more than 2 GB or 60 s.
+    ValueError
+        If ``bays`` or ``elements_per_bay`` cannot make a ring, or there is no such time step or record.
+    """
+    if bays < FEWEST_BAYS or bays % 2 == 0:
+        raise ValueError(f"bays = {bays}: give an odd number of {FEWEST_BAYS} or more")
+    if elements_per_bay < 2:
+        raise ValueError(f"elements_per_bay = {elements_per_bay}: give 2 or more")
+    if not (time_step > 0 and record >= SHORTEST_RECORD):
+        raise ValueError(
+            f"time_step = {time_step!r}, record = {record!r}: give a time step above 0 s "
+            f"and a record of {SHORTEST_RECORD} s or more"
+        )
+    dx = design.fastener_spacing / elements_per_bay
+    stable = stable_time_step(design, dx)
+    halvings = max(0, math.floor(math.log2(time_step / stable)) + 1)
+    dt = time_step / 2**halvings
+    notes = ()
+    if halvings:
+        notes = (
+            f"time step halved {_times(halvings)} to 1/{1 / dt:.0f} s: this design is stable only below "
+            f"{stable * 1e6:.3g} µs",
+        )
+    grid = Grid(bays, elements_per_bay, dx, dt, round(record / dt), notes)
+    _refuse_if_too_large(grid, record)
+    return grid
+
+
+def _times(count):
+    return {1: "once", 2: "twice"}.get(count, f"{count} times")
+
+
+def _refuse_if_too_large(grid, record):
+    seconds = grid.duration_estimate(record)
+    if seconds > DURATION_LIMIT:
+        raise RunTooLargeError(
+            f"this run would take about {seconds:.3g} s ({grid.steps:.3g} steps of {grid.dt:.3g} s on "
+            f"{grid.elements} elements), more than the {DURATION_LIMIT:.0f} s allowed: "
+            "the stiffness, mass or spacing of this design needs too short a time step"
+        )
+    needed = grid.memory_estimate(record)
+    if needed > MEMORY_LIMIT:
+        raise RunTooLargeError(
+            f"this run would need about {needed / 1e9:.3g} GB, more than the {MEMORY_LIMIT / 1e9:.0f} GB "
+            "allowed: give a shorter record or fewer bays"
+        )

@@ -1,0 +1,91 @@
+"""From force records to the energy spectrum of the force into the ground.
+
+N2 s2 over Hz. The one normalisation: F(f) = dt * sum_n F_n exp(-i 2 pi f n dt), the Fourier integral
+of the record, so that a spectrum does not depend on the record's length or rate.
+
+Source: the paper (see :mod:`trackig_core.track.design`): energy is summed over the supports, not force.
+The one rule: nothing is said above the low-pass filter's pass band.
+"""
+
+import numpy as np
+from scipy.fft import next_fast_len, rfft
+
+from trackig_core.results import ForceSpectrum
+
+TOP_FREQUENCY = 600.0
+"""Highest frequency of a spectrum [Hz]: above the upper edge of the 500 Hz band, 562 Hz."""
+
+COLUMNS = 8
+"""Supports that are transformed at a time [-]: few enough that memory is used again, not asked for anew."""
+
+
+def force_spectrum(history, padding=1):
+    """Return the energy spectrum of a run, corrected for the low-pass filter's own response.
+
+    Parameters
+    ----------
+    history : TimeHistory
+        Record of the run.
+    padding : float
+        Length of the transform in parts of the record [-], which zeros make longer: a force that has died
+        down stays so.
+
+    Returns
+    -------
+    ForceSpectrum
+        At multiples of one over the transform's length, up to 600 Hz.
+    """
+    length = transform_length(history, padding)
+    frequency, interval = _axis(history, length)
+    correction = (interval / history.low_pass.gain(frequency)) ** 2
+
+    # Plain sums: a product of matrices would be shared among threads, which wait for each other when other
+    # solves keep the cores busy.
+    energy = np.zeros(len(frequency))
+    total = np.zeros(len(frequency), dtype=complex)
+    for first in range(0, history.multiplicity.size, COLUMNS):
+        some = slice(first, first + COLUMNS)
+        forces = np.ascontiguousarray(history.support_force[:, some].T)
+        transforms = rfft(forces, length, axis=1)[:, 1 : len(frequency) + 1]
+        share = history.multiplicity[some, None]
+        energy += np.sum(share * (transforms.real**2 + transforms.imag**2), axis=0)
+        total += np.sum(share * transforms, axis=0)
+    return ForceSpectrum(
+        frequency=frequency,
+        energy=correction * energy,
+        coherent_energy=correction * np.abs(total) ** 2,
+        step=history.step,
+    )
+
+
+def transform_length(history, padding):
+    """Return the number of samples of a transform: ``padding`` times the record's, or a little more."""
+    samples = len(history.time)
+    return samples if padding == 1 else next_fast_len(round(padding * samples), real=True)
+
+
+def block_to_rail(history):
+    """Return how much the block moves per movement of the rail, at the loaded support.
+
+    Parameters
+    ----------
+    history : TimeHistory
+        Record of a two-stage run.
+
+    Returns
+    -------
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies [Hz], up to 600 Hz.
+    ratio : numpy.ndarray (frequencies,)
+        Magnitude of block over rail displacement [-]; the low-pass filter's response cancels.
+    """
+    frequency, _ = _axis(history, len(history.time))
+    some = slice(1, len(frequency) + 1)
+    return frequency, np.abs(rfft(history.block_displacement)[some] / rfft(history.rail_displacement)[some])
+
+
+def _axis(history, length):
+    """Return the frequencies of a transform up to 600 Hz, zero left out, and its interval [s]."""
+    interval = (history.time[-1] - history.time[0]) / (len(history.time) - 1)
+    count = int(TOP_FREQUENCY * length * interval) + 1
+    return np.arange(1, count) / (length * interval), interval

@@ -1,0 +1,346 @@
+"""The seam between design and kernel: run the time stepping and keep its low-passed record.
+
+SI units. Rest until time zero, then a step squeezes the contact spring (the paper, see
+:mod:`trackig_core.track.design`). Each block of steps is low-passed before it is decimated, because on a
+stiff track the ringing far above 500 Hz is orders of magnitude stronger than the force at 5 Hz and
+would fold down onto it.
+
+The one rule: nothing that is not finite leaves this module.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from trackig_core.results import TimeHistory
+from trackig_core.time_domain import kernels
+from trackig_core.time_domain.decimation import NO_COMB, RECORD_RATE, low_pass
+from trackig_core.time_domain.grid import LONGEST_RECORD
+from trackig_core.time_domain.kernels import LANES
+from trackig_core.time_domain.memory_layout import GHOSTS, QUANTITIES, Layout, aligned_zeros
+from trackig_core.track.design import DEFAULT_STEP
+from trackig_core.track.viscoelastic_law import laws
+
+DECAY = 1e-4
+"""Amplitude, relative to its peak, below which a force has died down [-]: 80 dB."""
+
+DECAY_WINDOW = 0.1
+"""Last part of the record in which the force must stay below :data:`DECAY` [s]: half a period at 5 Hz."""
+
+LEAST_BLOCK = 16
+"""Decimated samples per call of the kernel, at least."""
+
+BLOCK_BYTES = 400_000
+"""Rows of the record per call of the kernel [bytes]: they stay in the second-level cache until they are
+filtered; ``cancelled`` is asked every few milliseconds."""
+
+
+class SolveCancelled(Exception):  # noqa: N818  (it is no error: the caller asked for it)
+    """The caller cancelled the run."""
+
+
+class Decay:
+    """When the paper's record may end: its force has decayed by 80 dB; if not, it is doubled."""
+
+    def __init__(self):
+        self._peak = 0.0
+
+    def reached(self, forces):
+        """Return whether a record may end.
+
+        Parameters
+        ----------
+        forces : numpy.ndarray (samples, supports)
+            The latest part of the record [N].
+        """
+        window = max(1, round(DECAY_WINDOW * RECORD_RATE))
+        self._peak = max(self._peak, float(np.abs(forces).max()))
+        return bool(np.abs(forces[-window:]).max() <= DECAY * self._peak)
+
+    def more(self, steps_done):
+        """Return how many steps a record that may not end is made longer by."""
+        return steps_done
+
+
+def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, progress=None, cancelled=None):
+    """Step a design through time until the force into the ground has died down.
+
+    The record is made longer, up to 16 s, until its ending is reached.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    grid : Grid
+        Its grid.
+    memory_order : int
+        1 for the paper's recursion of the damping memory, 2 for the second-order one.
+    step : float
+        Step that squeezes the contact spring [m].
+    ending : Decay, optional
+        Says when the record may end, and how much longer it is made if it may not. By default the paper's:
+        it is doubled until the low-passed force has decayed by 80 dB.
+    progress : callable, optional
+        Called now and then with the fraction done, 0 to 1. The first record counts for half of it, the
+        first extension for half of the rest, and so on, since nobody knows how many there will be.
+    cancelled : callable, optional
+        Asked now and then; the run ends when it answers true.
+
+    Returns
+    -------
+    TimeHistory
+        Low-passed, decimated record of the forces.
+
+    Raises
+    ------
+    SolveCancelled
+        If ``cancelled`` answered true.
+    FloatingPointError
+        If the run produced a value that is not finite.
+    """
+    run = Run(design, grid, memory_order=memory_order, step=step)
+    ending = ending or Decay()
+    parts = [run.collect(grid.steps, progress, cancelled)]
+    while not (decayed := ending.reached(parts[-1][:, : grid.half_bays])):
+        more = ending.more(run.steps_done)
+        record = (run.steps_done + more) * grid.dt
+        if record > LONGEST_RECORD or not grid.can_afford(record):
+            break
+        parts.append(run.collect(more, progress, cancelled))
+    samples = parts[0] if len(parts) == 1 else np.concatenate(parts)
+    if progress is not None:
+        progress(1.0)
+
+    supports = grid.half_bays
+    multiplicity = np.full(supports, 2.0)
+    multiplicity[0] = 1.0
+    return TimeHistory(
+        time=run.filter.times(len(samples)),
+        support_force=samples[:, :supports],
+        multiplicity=multiplicity,
+        wheel_displacement=samples[:, supports],
+        rail_displacement=samples[:, supports + 1],
+        block_displacement=samples[:, supports + 2] if design.two_stage else None,
+        low_pass=run.filter,
+        time_step=grid.dt,
+        step=step,
+        steps=run.steps_done,
+        decayed=decayed,
+    )
+
+
+class State(NamedTuple):
+    """What the kernel changes from step to step, in the order in which it takes it."""
+
+    rail: np.ndarray
+    rail_velocity: np.ndarray
+    supports: np.ndarray
+    wheel: np.ndarray
+    window: np.ndarray
+
+
+class Constants(NamedTuple):
+    """What the kernel is given and leaves alone, in the order in which it takes it."""
+
+    mirrors: np.ndarray
+    rail_probes: np.ndarray
+    block_probes: np.ndarray
+    time_step: float
+    bending: float
+    pad_stiffness: float
+    pad_decay: np.ndarray
+    pad_gain: np.ndarray
+    boot_stiffness: float
+    boot_decay: np.ndarray
+    boot_gain: np.ndarray
+    element_mass: float
+    block_mass: float
+    wheel_mass: float
+    contact_stiffness: float
+    two_stage: bool
+    comb: np.ndarray
+    comb_factor: int
+
+
+TERMS = 3
+"""Memory terms of a spring in the kernel [-]; those that a spring without loss has not are zero."""
+
+
+@dataclass(frozen=True)
+class Probes:
+    """Where displacements are recorded beside the forces, besides that of the wheel.
+
+    Attributes
+    ----------
+    rail : tuple of int
+        Rail elements, counted from the wheel.
+    blocks : tuple of int
+        Supports whose block is recorded, counted from the wheel; zero when single-stage.
+    """
+
+    rail: tuple[int, ...] = (0,)
+    blocks: tuple[int, ...] = (0,)
+
+    @property
+    def count(self):
+        """Displacements recorded, the wheel's among them."""
+        return 1 + len(self.rail) + len(self.blocks)
+
+
+LOADED_SUPPORT = Probes()
+"""Wheel, and rail and block at the loaded support."""
+
+
+def at_rest(
+    design,
+    grid,
+    *,
+    memory_order=1,
+    step=DEFAULT_STEP,
+    probes=LOADED_SUPPORT,
+    comb=NO_COMB,
+    comb_factor=1,
+):
+    """Return a track at rest under a wheel that squeezes its contact spring.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    grid : Grid
+        Its grid.
+    memory_order : int
+        1 for the paper's recursion of the damping memory, 2 for the second-order one.
+    step : float
+        Displacement of the wheel against the contact spring [m].
+    probes : Probes
+        What is recorded beside the forces.
+    comb : numpy.ndarray (taps,)
+        First stage of the low-pass filter, newest first [-]; by default none.
+    comb_factor : int
+        Time steps per row of the record.
+
+    Returns
+    -------
+    State, Constants
+        Arguments of :func:`trackig_core.time_domain.kernels.advance`; shapes and units are given there.
+    """
+    rail, layout = design.rail, Layout(grid)
+    pad_law, boot_law = laws(design)
+    state = State(
+        rail=aligned_zeros((layout.elements + 2 * GHOSTS) * LANES),
+        rail_velocity=aligned_zeros(layout.elements * LANES),
+        supports=aligned_zeros(layout.bays, QUANTITIES * LANES),
+        wheel=np.array([step, 0.0]),
+        window=aligned_zeros(comb.size, layout.columns(probes.count)),
+    )
+    constants = Constants(
+        layout.mirrors(),
+        np.array([layout.rail_place(element) for element in probes.rail], dtype=np.int64),
+        np.array([layout.block_place(support) for support in probes.blocks], dtype=np.int64),
+        grid.dt,
+        grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
+        *_recursion(pad_law, grid.dt, memory_order),
+        *_recursion(boot_law, grid.dt, memory_order),
+        element_mass=rail.mass_per_metre * grid.dx,
+        block_mass=design.block_mass if design.two_stage else 1.0,
+        wheel_mass=design.wheel_mass,
+        contact_stiffness=design.contact_stiffness,
+        two_stage=design.two_stage,
+        comb=comb,
+        comb_factor=comb_factor,
+    )
+    return state, constants
+
+
+def _recursion(law, time_step, memory_order):
+    """Return stiffness, decays and gains of a spring, as many as the kernel has terms; zero for no spring."""
+    if law is None:
+        return 0.0, np.zeros(TERMS), np.zeros(TERMS)
+    stiffness, decay, gain = law.recursion(time_step, memory_order)
+    missing = (0, TERMS - decay.size)
+    return stiffness, np.pad(decay, missing), np.pad(gain, missing)
+
+
+class Run:
+    """One run under way: the kernel's state, and the rows that the filter still needs.
+
+    Parameters
+    ----------
+    design, grid, memory_order, step, probes
+        As in :func:`at_rest`.
+
+    Attributes
+    ----------
+    filter : LowPass
+        The filter that precedes the thinning out.
+    steps_done : int
+        Time steps taken.
+    """
+
+    def __init__(self, design, grid, *, memory_order=1, step=DEFAULT_STEP, probes=LOADED_SUPPORT):
+        self.filter = low_pass(grid.dt)
+        self._state, self._constants = at_rest(
+            design,
+            grid,
+            memory_order=memory_order,
+            step=step,
+            probes=probes,
+            comb=self.filter.comb,
+            comb_factor=self.filter.comb_factor,
+        )
+        self._layout, self._probes = Layout(grid), probes
+        self._dt = grid.dt
+        columns = self._state.window.shape[1]
+        self._block = max(LEAST_BLOCK, BLOCK_BYTES // (8 * columns * self.filter.factor))
+        self._rows = aligned_zeros(self.filter.taps.size - 1 + self._block * self.filter.factor, columns)
+        self._kept = aligned_zeros(self._block, columns)
+        self.steps_done = 0
+        self._fraction = 0.0
+
+    def collect(self, steps, progress=None, cancelled=None):
+        """Take about ``steps`` time steps and return their decimated samples, supports in order, then probes.
+
+        Parameters
+        ----------
+        steps : int
+            Time steps.
+        progress, cancelled : callable, optional
+            As in :func:`simulate`.
+
+        Returns
+        -------
+        numpy.ndarray (samples, half_bays + probes)
+            Forces [N]; displacements of the wheel and of the probes on rail and blocks [m].
+
+        Raises
+        ------
+        SolveCancelled, FloatingPointError
+            As in :func:`simulate`.
+        """
+        count = round(steps / self.filter.steps_per_sample)
+        samples = np.empty((count, self._layout.width(self._probes.count)))
+        began = self._fraction
+        for first in range(0, count, self._block):
+            if cancelled is not None and cancelled():
+                raise SolveCancelled("the run was cancelled")
+            part = samples[first : first + self._block]
+            self._fill(part)
+            if not np.isfinite(part[-1]).all():
+                time = self.steps_done * self._dt
+                raise FloatingPointError(f"the run left the finite numbers {time:.3g} s after its start")
+            if progress is not None:
+                self._fraction = began + (1 - began) / 2 * (first + len(part)) / count
+                progress(self._fraction)
+        return samples
+
+    def _fill(self, samples):
+        """Step on, and fill the next samples."""
+        count, tail = len(samples), self.filter.taps.size - 1
+        rows = self._rows[: tail + count * self.filter.factor]
+        kernels.advance(*self._state, *self._constants, self.steps_done, rows[tail:])
+        self.steps_done += count * self.filter.steps_per_sample
+        kernels.decimate(rows, self.filter.taps, self.filter.factor, self._kept[:count])
+        self._rows[:tail] = rows[-tail:].copy()
+        self._layout.put_in_order(self._kept[:count], samples)

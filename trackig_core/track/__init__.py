@@ -1,0 +1,1 @@
+"""The track: design, catalogue, measured curves, and the law of its pads and boots."""

@@ -1,0 +1,267 @@
+"""Loss factor -> Boltzmann relaxation: damping that a time-stepping solver can integrate.
+
+A pad or boot under strain e(t) answers with
+
+    sigma(t) = k_inf e(t) - sum_j (k_j / tau_j) integral_0^inf e(t - s) exp(-s / tau_j) ds
+
+so its dynamic stiffness is K(w) = k_inf - sum_j k_j / (1 + i w tau_j), three terms, and its loss
+factor Im K / Re K. Such a material is causal, so it stiffens with frequency as much as its damping
+demands. N/m, s, Hz. Source: the paper (see :mod:`trackig_core.track.design`), damping section.
+
+The one rule: Re K at 50 Hz is exactly the dynamic stiffness that the designer stated; a table of measured
+stiffness is met as well as three terms can.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from trackig_core.track.design import REFERENCE_FREQUENCY
+from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
+
+FIT_FREQUENCIES = np.geomspace(5.0, 500.0, 100)
+"""Frequencies at which the fitted loss factor is compared with its target (100,) [Hz]."""
+FIT_FREQUENCIES.flags.writeable = False
+
+SHORTEST_TIME = 1e-4
+"""Least relaxation time [s]. A shorter one would lie above the bands, where it is but a stiffer spring, and
+so near the time step that the paper's recursion of the memory turns unstable."""
+
+LONGEST_TIME = 0.3
+"""Greatest relaxation time [s]. A longer one would lie below the bands, where it is but a softer spring, and
+outlast the record."""
+
+_BOUNDS = (np.log([1e-9] * 3 + [SHORTEST_TIME] * 3), np.log([1e4] * 3 + [LONGEST_TIME] * 3))
+"""Least and greatest logarithm of strengths over static stiffness and mean loss factor [-], of times [s]."""
+
+NEGLIGIBLE = 1e-9
+"""Loss factor below which a spring is taken to have no memory [-]."""
+
+_START_TIMES = (2.2e-2, 2.8e-3, 3.5e-4)
+"""Relaxation times from which every fit starts [s]: evenly spaced over the inverse of 5-500 Hz."""
+
+
+@dataclass(frozen=True)
+class Relaxation:
+    """A pad's or boot's viscoelastic law.
+
+    Attributes
+    ----------
+    instantaneous : float [N/m]
+        Stiffness against a sudden strain, k_inf.
+    strengths : tuple of float [N/m]
+        Stiffness k_j that each term loses in time; empty without damping.
+    times : tuple of float [s]
+        Relaxation time tau_j of each term.
+    worst_error : float [-]
+        Largest relative error against what was stated, 5-500 Hz: of the loss factor, and of a measured
+        stiffness.
+    """
+
+    instantaneous: float
+    strengths: tuple[float, ...]
+    times: tuple[float, ...]
+    worst_error: float
+
+    def dynamic_stiffness(self, frequency):
+        """Return the complex dynamic stiffness K(f), time dependence exp(+i w t).
+
+        Parameters
+        ----------
+        frequency : array_like
+            Frequencies [Hz].
+
+        Returns
+        -------
+        numpy.ndarray of complex
+            Dynamic stiffness [N/m], of the same shape.
+        """
+        return _relaxed(frequency, self.instantaneous, self.strengths, self.times)
+
+    def stiffness(self, frequency):
+        """Return Re K at one frequency [Hz]: the stiffness without its loss [N/m]."""
+        angular = 2 * math.pi * frequency
+        return self.instantaneous - sum(
+            strength / (1 + (angular * time) ** 2)
+            for strength, time in zip(self.strengths, self.times, strict=True)
+        )
+
+    def loss_factor(self, frequency):
+        """Return the loss factor Im K / Re K at given frequencies [Hz]; same shape, [-]."""
+        stiffness = self.dynamic_stiffness(frequency)
+        return stiffness.imag / stiffness.real
+
+    def recursion(self, time_step, order):
+        """Return the numbers that integrate the law step by step.
+
+        With S_j the convolution of strain with exp(-s / tau_j), the force is
+        k_inf e - sum_j k_j S_j / tau_j. First order (the paper): S_j <- S_j exp(-dt/tau_j) + e dt,
+        the current strain included. Second order: the exponential is integrated exactly against
+        strain that is linear between steps. Both are returned in one form, with memory terms
+        R_j [N] that leave the current strain out:
+
+            force = k_now e - sum_j R_j,    then    R_j <- decay_j R_j + gain_j e
+
+        Parameters
+        ----------
+        time_step : float
+            dt [s].
+        order : int
+            1 (the paper's recursion) or 2.
+
+        Returns
+        -------
+        stiffness : float
+            k_now, the factor of the current strain [N/m].
+        decay, gain : numpy.ndarray (terms,)
+            Factor per step [-] and feed [N/m] of the memory terms.
+        """
+        times, strengths = np.array(self.times), np.array(self.strengths)
+        decay = np.exp(-time_step / times)
+        if order == 1:
+            now, before = np.full_like(times, time_step), np.zeros_like(times)
+        else:
+            mean = times * -np.expm1(-time_step / times) / time_step
+            now, before = times * (1 - mean), times * (mean - decay)
+        rate = strengths / times
+        return self.instantaneous - float(rate @ now), decay, rate * (decay * now + before)
+
+
+def _relaxed(frequency, instantaneous, strengths, times):
+    """Return k_inf - sum_j k_j / (1 + i w tau_j)."""
+    angular = 2j * np.pi * np.asarray(frequency, dtype=float)
+    return instantaneous - sum(
+        (strength / (1 + angular * time) for strength, time in zip(strengths, times, strict=True)),
+        start=np.zeros_like(angular),
+    )
+
+
+def relaxation(stiffness, loss_factor):
+    """Return the relaxation law of a pad or boot.
+
+    Parameters
+    ----------
+    stiffness : float or StiffnessCurve
+        Dynamic stiffness at 50 Hz [N/m], or as measured over frequency.
+    loss_factor : float or LossFactorCurve or None
+        Loss factor wanted from 5 to 500 Hz [-]; zero gives a spring without memory. None with a
+        StiffnessCurve.
+
+    Returns
+    -------
+    Relaxation
+        The fitted law.
+    """
+    if isinstance(stiffness, StiffnessCurve):
+        return _fit_stiffness(stiffness)
+    shape = fit_loss_factor(loss_factor)
+    return Relaxation(
+        stiffness * shape.instantaneous,
+        tuple(stiffness * strength for strength in shape.strengths),
+        shape.times,
+        shape.worst_error,
+    )
+
+
+def laws(design):
+    """Return the laws of a design's pads and boots.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    pad : Relaxation
+        Law of the pads.
+    boot : Relaxation or None
+        Law of the boots; None when single-stage.
+    """
+    pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
+    boot = relaxation(design.boot_stiffness, design.boot_loss_factor) if design.two_stage else None
+    return pad, boot
+
+
+@lru_cache(maxsize=256)
+def fit_loss_factor(loss_factor):
+    """Fit three relaxation terms to a loss factor by least squares.
+
+    The sum over :data:`FIT_FREQUENCIES` of squared relative errors of the loss factor is made smallest.
+
+    Parameters
+    ----------
+    loss_factor : float or LossFactorCurve
+        Target loss factor [-], zero or more.
+
+    Returns
+    -------
+    Relaxation
+        The law, for a stiffness of 1 N/m at 50 Hz; slowest term first.
+    """
+    if isinstance(loss_factor, LossFactorCurve):
+        target = loss_factor.loss_factor(FIT_FREQUENCIES)
+    elif loss_factor < NEGLIGIBLE:
+        return Relaxation(1.0, (), (), 0.0)
+    else:
+        target = np.full_like(FIT_FREQUENCIES, loss_factor)
+    return _scaled(_fit(lambda law: law.loss_factor(FIT_FREQUENCIES) / target - 1, target.mean()), 1.0)
+
+
+@lru_cache(maxsize=256)
+def _fit_stiffness(curve):
+    """Fit three relaxation terms to measured stiffness and loss factor, errors of both weighed alike.
+
+    Beyond the measured frequencies stiffness is left to follow from the loss factor, as causality asks.
+    """
+    covered = FIT_FREQUENCIES[curve.covers(FIT_FREQUENCIES)]
+    loss_factor = curve.loss_factor(FIT_FREQUENCIES)
+    # A table wholly outside 5-500 Hz still says how stiff the spring is.
+    at = covered if covered.size else np.array([curve.points[0][0]])
+    stiffness = curve.stiffness(at)
+
+    def relative_errors(law):
+        scale = np.exp(np.mean(np.log(stiffness / law.dynamic_stiffness(at).real)))
+        return np.concatenate(
+            [
+                law.loss_factor(FIT_FREQUENCIES) / loss_factor - 1,
+                scale * law.dynamic_stiffness(at).real / stiffness - 1,
+            ]
+        )
+
+    law = _fit(relative_errors, loss_factor.mean())
+    scale = np.exp(np.mean(np.log(stiffness / law.dynamic_stiffness(at).real)))
+    return _scaled(law, float(scale * law.stiffness(REFERENCE_FREQUENCY)))
+
+
+def _scaled(law, stiffness):
+    """Return a law scaled to have a given stiffness at 50 Hz [N/m]."""
+    factor = stiffness / law.stiffness(REFERENCE_FREQUENCY)
+    return Relaxation(
+        factor * law.instantaneous,
+        tuple(factor * strength for strength in law.strengths),
+        law.times,
+        law.worst_error,
+    )
+
+
+def _fit(relative_errors, loss_factor):
+    """Return the law of static stiffness 1 N/m that makes the sum of squared errors smallest.
+
+    Times and strengths are sought by their logarithms, so that they stay positive.
+    """
+
+    def law(logarithms, worst_error=0.0):
+        strengths, times = loss_factor * np.exp(logarithms[:3]), np.exp(logarithms[3:])
+        order = np.argsort(-times)
+        strengths, times = (tuple(float(value) for value in each[order]) for each in (strengths, times))
+        return Relaxation(1.0 + sum(strengths), strengths, times, worst_error)
+
+    start = np.log([1.6, 1.8, 3.0, *_START_TIMES])
+    fit = least_squares(
+        lambda x: relative_errors(law(x)), start, bounds=_BOUNDS, xtol=1e-12, ftol=1e-12, gtol=1e-12
+    )
+    return law(fit.x, float(np.max(np.abs(fit.fun))))
