@@ -12,25 +12,25 @@ from panel.util import edit_readonly
 
 from dashboard import theme
 from dashboard.client.browser import Browser
-from dashboard.client.exchange import NOT_HEEDED, Exchange
+from dashboard.client.exchange import HANDLING_FAILED, Exchange
 from dashboard.client.exchange import tell as tell_user
-from dashboard.compute.checker import Checker
-from dashboard.compute.pinned import PinnedPictures
+from dashboard.compute.checker import VerificationRunner
+from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
-from dashboard.persistence.snapshot import Keeping
-from dashboard.session.assessment import Workshop
+from dashboard.persistence.snapshot import SessionSnapshot
+from dashboard.session.assessment import Assessment
 from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import DesignInputs, Presentation
+from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.compare import Compare
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
-from dashboard.views.keep import Keep, copy_button
 from dashboard.views.learn import Learn
-from dashboard.views.level import LevelView
 from dashboard.views.method import Method
+from dashboard.views.received_level import ReceivedLevel
+from dashboard.views.save_and_share import SaveAndShare, copy_button
 from dashboard.views.sidebar import Controls
 from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
@@ -74,45 +74,45 @@ def build(store=None, live_store=None):
         exception_handler=tell,
         disconnect_notification=CONNECTION_LOST,
     )
-    inputs, outcome, presentation, pins = DesignInputs(), Outcome(), Presentation(), Pins()
+    inputs, outcome, definition, pins = DesignInputs(), Outcome(), GainDefinition(), Pins()
     store = store or shared_store()
-    pinned = PinnedPictures(pins, store)
-    curves = PinnedCurves(pins, pinned, presentation)
-    workshop = Workshop(outcome, presentation, pins, pinned, curves)
-    keeping = Keeping(inputs, presentation, pins, workshop, [view.title.lower() for view in VIEWS])
-    problems = keeping.follow(pn.state.session_args)
+    pinned = PinnedSummaries(pins, store)
+    curves = PinnedCurves(pins, pinned, definition)
+    assessment = Assessment(outcome, definition, pins, pinned, curves)
+    snapshot = SessionSnapshot(inputs, definition, pins, assessment, [view.title.lower() for view in VIEWS])
+    problems = snapshot.follow(pn.state.session_args)
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
-    Checker(outcome)
+    VerificationRunner(outcome)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
     pn.state.onload(lambda: tell_problems(problems))
-    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(keeping)
+    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
 
     def show_insertion_gain():
-        keeping.tab = Explore.title.lower()
+        snapshot.tab = Explore.title.lower()
 
     views = [
-        Explore(outcome, presentation, pins, curves, workshop),
-        Compare(inputs, outcome, presentation, pins, pinned, curves, show_insertion_gain),
-        SpecificationView(workshop, exchange),
-        LevelView(workshop, pins, exchange),
+        Explore(outcome, definition, pins, curves, assessment),
+        Compare(inputs, outcome, definition, pins, pinned, curves, show_insertion_gain),
+        SpecificationView(assessment, exchange),
+        ReceivedLevel(assessment, pins, exchange),
         Track(inputs, outcome),
-        Learn(inputs, outcome, presentation),
-        Verify(outcome, presentation),
+        Learn(inputs, outcome, definition),
+        Verify(outcome, definition),
         Method(),
-        Keep(keeping, exchange),
+        SaveAndShare(snapshot, exchange),
     ]
     status = Status(outcome, runner.stop, runner.solve_again)
     sidebar = [DesignBar(inputs, pins, browser), Controls(inputs)]
-    return page(sidebar, status, tabs(outcome, keeping, views, exchange), browser, exchange)
+    return page(sidebar, status, tabs(outcome, snapshot, views, exchange), browser, exchange)
 
 
-VIEWS = (Explore, Compare, SpecificationView, LevelView, Track, Learn, Verify, Method, Keep)
+VIEWS = (Explore, Compare, SpecificationView, ReceivedLevel, Track, Learn, Verify, Method, SaveAndShare)
 """The tabs, in their order; a link names one by its title."""
 
 
-def tabs(outcome, keeping, views, exchange):
+def tabs(outcome, snapshot, views, exchange):
     """Return the views as tabs; those that work only while somebody looks are told when they are in sight.
 
     A tab is empty until it is first looked at: a page with all of them would take three times as long.
@@ -130,10 +130,10 @@ def tabs(outcome, keeping, views, exchange):
 
     def tell_views(*_):
         active = views[shown.active]
-        keeping.tab = names[shown.active]
-        outcome.checking = isinstance(active, Verify)
+        snapshot.tab = names[shown.active]
+        outcome.verifying = isinstance(active, Verify)
         for view in views:
-            if isinstance(view, (Compare, Learn, LevelView, SpecificationView, Track)):
+            if isinstance(view, (Compare, Learn, ReceivedLevel, SpecificationView, Track)):
                 view.look(view is active)
         # last, since not all widgets can change before the browser has drawn them
         if shown.active in unseen:
@@ -142,12 +142,12 @@ def tabs(outcome, keeping, views, exchange):
             exchange.introduce()
 
     def open_tab(*_):
-        shown.active = names.index(keeping.tab)
+        shown.active = names.index(snapshot.tab)
 
     open_tab()
     tell_views()
     shown.param.watch(tell_views, "active")
-    keeping.param.watch(open_tab, "tab")
+    snapshot.param.watch(open_tab, "tab")
     return shown
 
 
@@ -184,4 +184,4 @@ def page(sidebar, status, main, browser, exchange):
 def tell(error):
     """Log an exception that escaped a callback, and tell the user so in plain words."""
     log.error("A callback failed", exc_info=error)
-    tell_user("error", NOT_HEEDED)
+    tell_user("error", HANDLING_FAILED)

@@ -18,7 +18,7 @@ log = logging.getLogger(__name__)
 
 def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     """Have the kernels compiled while pages are served, then the presets solved, the opening one first."""
-    IOLoop.current().asyncio_loop.set_exception_handler(heed)
+    IOLoop.current().asyncio_loop.set_exception_handler(handle_message)
     # what is imported stays: looking through it for garbage would stop every session for 0.1 s now and then
     gc.freeze()
     compiled()
@@ -26,7 +26,7 @@ def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
         shared_store().request((tig.PRESETS[key], AT_REST))
 
 
-def heed(loop, context):
+def handle_message(loop, context):
     """Log an exception that nobody caught; a reader who left while a picture was on its way is none.
 
     Parameters

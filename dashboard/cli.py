@@ -20,7 +20,7 @@ from pathlib import Path
 
 import trackig_core as tig
 from dashboard import formats
-from dashboard.session.results import Picture
+from dashboard.session.results import SolutionSummary
 from trackig_core.levels import band_tables
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
 from trackig_core.solver import FIDELITIES
@@ -303,19 +303,19 @@ def _report(options):
 
     opened = _open_study(options.study)
     _refuse_to_lose(options.output, options.force, options.study)
-    pictures = {
-        design: _picture(design, options.fidelity)
+    summaries = {
+        design: _summary(design, options.fidelity)
         for design in {each.design for each in (*opened.shown, opened.base)}
     }
-    report = html_report(opened, pictures, date=datetime.date.today(), version=tig.__version__)
+    report = html_report(opened, summaries, date=datetime.date.today(), version=tig.__version__)
     _write(options.output, report)
     sys.stdout.write(f"{options.output}\n")
     return 0
 
 
-def _picture(design, fidelity):
+def _summary(design, fidelity):
     began = time.perf_counter()
-    return Picture.of(tig.solve(design, fidelity), time.perf_counter() - began)
+    return SolutionSummary.of(tig.solve(design, fidelity), time.perf_counter() - began)
 
 
 def _serve(options):

@@ -11,7 +11,7 @@ import numpy as np
 from trackig_core.frequency_domain import floquet_waves, refinement
 from trackig_core.frequency_domain.convergence import time_step_errors
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
-from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.results import Solution
 from trackig_core.time_domain import adaptive_grid
@@ -90,7 +90,7 @@ def solve(
     grid, history, notes = None, None, ()
     watching = {"progress": progress, "cancelled": cancelled}
     if fidelity == "exact":
-        refuse_if_unbounded(design)
+        require_damping(design)
         spectrum = banded_spectrum(design, frequencies.loaded_track)
     elif fidelity == "live":
         chosen = adaptive_grid.plan(design, frequencies.loaded_track)

@@ -17,7 +17,7 @@ from pathlib import Path
 import panel as pn
 import param
 
-from dashboard.compute.document import in_turn, one_message
+from dashboard.compute.document import on_next_tick, one_message
 from trackig_core.levels import band_tables
 from trackig_core.study import studies
 
@@ -43,7 +43,7 @@ REST = 0.3
 COPIED = "The link is copied: it holds the design, the pinned designs and the view."
 NOT_COPIED = "The browser does not let the page copy. Copy the address from the address bar: it is the link."
 NOT_DRAWN = "The plot could not be drawn. Open its tab, then save it again."
-NOT_HEEDED = "Something went wrong; the server's log has the details."
+HANDLING_FAILED = "Something went wrong; the server's log has the details."
 NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
 
 log = logging.getLogger(__name__)
@@ -54,21 +54,21 @@ class Scripted(pn.custom.JSComponent):
 
     __abstract = True
 
-    def heed(self, message):
+    def handle_message(self, message):
         """Do what a message of the script asks for; one of another form asks for nothing."""
 
     def _handle_msg(self, message):
-        heed = partial(in_turn, pn.state.curdoc, partial(self._heed_in_turn, message))
+        handle_message = partial(on_next_tick, pn.state.curdoc, partial(self._handle_in_turn, message))
         # what changes before the page says that it is loaded would not reach it
-        heed() if pn.state.loaded else pn.state.onload(heed)
+        handle_message() if pn.state.loaded else pn.state.onload(handle_message)
 
-    def _heed_in_turn(self, message, document):
+    def _handle_in_turn(self, message, document):
         try:
             with one_message(document):
-                self.heed(message)
+                self.handle_message(message)
         except Exception:
             log.exception("A message from the browser could not be heeded")
-            tell("error", NOT_HEEDED)
+            tell("error", HANDLING_FAILED)
 
 
 class Exchange(Scripted):
@@ -76,7 +76,7 @@ class Exchange(Scripted):
 
     Parameters
     ----------
-    keeping : Keeping
+    snapshot : SessionSnapshot
         What the address bar follows.
     """
 
@@ -85,20 +85,20 @@ class Exchange(Scripted):
 
     _esm = (Path(__file__).parent / "scripts" / "exchange.js").read_text(encoding="utf-8")
 
-    def __init__(self, keeping):
+    def __init__(self, snapshot):
         super().__init__(
             session=secrets.token_hex(8), width=0, height=0, margin=0, styles={"position": "absolute"}
         )
-        self._keeping = keeping
+        self._snapshot = snapshot
         self._openers = {}
         self._left = None
         self._waiting = False
         self._changed = False
         self._note()
-        keeping.watch(self._follow)
+        snapshot.watch(self._follow)
 
     def _note(self):
-        self.kept = [self._keeping.query(), self._keeping.study().to_toml()]
+        self.kept = [self._snapshot.query(), self._snapshot.study().to_toml()]
 
     async def _follow(self, *_):
         """Note what is kept, once changes rest."""
@@ -141,7 +141,7 @@ class Exchange(Scripted):
         """
         self._send_msg({"kind": "introduce"})
 
-    def heed(self, message):
+    def handle_message(self, message):
         """Do what the browser asks for."""
         match message:
             case {"kind": "restore", "data": str(data)}:
@@ -149,9 +149,9 @@ class Exchange(Scripted):
             case {"kind": "copied", "data": bool(copied)}:
                 tell("success", COPIED) if copied else tell("warning", NOT_COPIED)
             case {"kind": "show", "data": str(name)} if name in PLOTS:
-                self._left, self._keeping.tab = self._keeping.tab, PLOTS[name]
+                self._left, self._snapshot.tab = self._snapshot.tab, PLOTS[name]
             case {"kind": "back"} if self._left is not None:
-                self._left, self._keeping.tab = None, self._left
+                self._left, self._snapshot.tab = None, self._left
             case {"kind": "not_drawn"}:
                 tell("warning", NOT_DRAWN)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
@@ -159,7 +159,7 @@ class Exchange(Scripted):
 
     def _restore(self, data):
         try:
-            self._keeping.open(data)
+            self._snapshot.open(data)
         except ValueError:
             # it was in the browser's memory, where anybody may have written
             log.info("A page's memory was refused", exc_info=True)

@@ -9,19 +9,19 @@ from functools import lru_cache
 import trackig_core as tig
 from dashboard.compute.latest import Latest, publish, readable
 from dashboard.compute.workers import workers
-from dashboard.session.results import Checked
+from dashboard.session.results import VerifiedSummary
 
 CAPACITY = 64
 """Checked pictures kept; one holds some 0.2 MB."""
 
 
 @lru_cache(maxsize=CAPACITY)
-def check(picture):
+def check(summary):
     """Return a picture with what theory says of it.
 
     Parameters
     ----------
-    picture : Picture
+    summary : SolutionSummary
         What is checked.
 
     Returns
@@ -30,12 +30,12 @@ def check(picture):
         The exact answers, or why there are none.
     """
     try:
-        return Checked(picture, tig.verify(picture.solution))
+        return VerifiedSummary(summary, tig.verify(summary.solution))
     except Exception as error:
-        return Checked(picture, None, readable(error))
+        return VerifiedSummary(summary, None, readable(error))
 
 
-class Checker:
+class VerificationRunner:
     """Watches an outcome and keeps its checks up to date while they are looked at.
 
     Parameters
@@ -46,10 +46,10 @@ class Checker:
 
     def __init__(self, outcome):
         self._outcome = outcome
-        outcome.param.watch(Latest(self._check).ask, ["picture", "checking"])
+        outcome.param.watch(Latest(self._check).ask, ["summary", "verifying"])
 
     async def _check(self, document):
-        picture = self._outcome.picture
-        if self._outcome.checking and picture is not None:
-            checked = await asyncio.get_running_loop().run_in_executor(workers(), check, picture)
-            publish(self._outcome, document, checked=checked)
+        summary = self._outcome.summary
+        if self._outcome.verifying and summary is not None:
+            verified = await asyncio.get_running_loop().run_in_executor(workers(), check, summary)
+            publish(self._outcome, document, verified=verified)

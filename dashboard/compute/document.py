@@ -13,7 +13,7 @@ import panel as pn
 log = logging.getLogger(__name__)
 
 
-class Later:
+class NextTick:
     """Does a piece of drawing as soon as the session's document may change.
 
     Parameters
@@ -44,7 +44,7 @@ class Later:
             log.exception("A change could not be drawn")
 
 
-def in_turn(document, change):
+def on_next_tick(document, change):
     """Change what is drawn, when the session's document may change.
 
     Parameters

@@ -7,7 +7,7 @@ from functools import partial
 import panel as pn
 
 import trackig_core as tig
-from dashboard.compute.document import in_turn, one_message
+from dashboard.compute.document import on_next_tick, one_message
 
 log = logging.getLogger(__name__)
 
@@ -67,7 +67,7 @@ def publish(outcome, document, **changes):
     **changes
         New values by name.
     """
-    in_turn(document, partial(_apply, outcome, changes))
+    on_next_tick(document, partial(_apply, outcome, changes))
 
 
 def _apply(outcome, changes, document):

@@ -21,7 +21,7 @@ NOTHING = MappingProxyType({})
 log = logging.getLogger(__name__)
 
 
-class PinnedPictures(param.Parameterized):
+class PinnedSummaries(param.Parameterized):
     """What is there of each pinned design.
 
     Parameters
@@ -32,7 +32,7 @@ class PinnedPictures(param.Parameterized):
         Where pictures at rest come from.
     """
 
-    pictures = param.Parameter(default=NOTHING, doc="Picture of each pin that has one, by the pin's key.")
+    summaries = param.Parameter(default=NOTHING, doc="Picture of each pin that has one, by the pin's key.")
     problems = param.Parameter(default=NOTHING, doc="Why a pin has none and will get none, by its key.")
 
     def __init__(self, pins, store):
@@ -54,13 +54,13 @@ class PinnedPictures(param.Parameterized):
             self._pins.param.unwatch(watcher)
 
     def _take_what_is_kept(self, *_):
-        pictures, problems = self._of_pinned(self.pictures), self._of_pinned(self.problems)
+        summaries, problems = self._of_pinned(self.summaries), self._of_pinned(self.problems)
         for pin in self._missing():
             kept = self._store.kept((pin.design, AT_REST))
             if kept is not None:
-                pictures[pin.key] = kept
-        if pictures != self.pictures or problems != self.problems:
-            self.param.update(pictures=MappingProxyType(pictures), problems=MappingProxyType(problems))
+                summaries[pin.key] = kept
+        if summaries != self.summaries or problems != self.problems:
+            self.param.update(summaries=MappingProxyType(summaries), problems=MappingProxyType(problems))
 
     def _of_pinned(self, by_key):
         """Return what there is of the pins that are still pinned."""
@@ -68,7 +68,7 @@ class PinnedPictures(param.Parameterized):
 
     def _missing(self):
         return [
-            pin for pin in self._pins.pinned if pin.key not in self.pictures and pin.key not in self.problems
+            pin for pin in self._pins.pinned if pin.key not in self.summaries and pin.key not in self.problems
         ]
 
     async def _obtain_missing(self, document):
@@ -76,12 +76,12 @@ class PinnedPictures(param.Parameterized):
             if not self._wanted(pin):
                 continue
             try:
-                picture = await self._obtain(pin)
+                summary = await self._obtain(pin)
             except Exception as error:
                 self._publish(document, pin, "problems", readable(error))
             else:
-                if picture is not None:
-                    self._publish(document, pin, "pictures", picture)
+                if summary is not None:
+                    self._publish(document, pin, "summaries", summary)
 
     async def _obtain(self, pin):
         """Return the picture of a pin, or None if it was removed meanwhile."""

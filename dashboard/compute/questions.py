@@ -53,7 +53,7 @@ def answer(asked):
         return None, readable(error)
 
 
-class Teacher:
+class QuestionRunner:
     """Watches a question and answers it while it is looked at.
 
     Parameters

@@ -76,11 +76,11 @@ class Runner:
     def start(self):
         """Show the picture of the inputs as they stand: at once if the store has it, else when solved."""
         design = self.inputs.to_design()
-        picture = self._store.kept((design, AT_REST))
-        if picture is None:
+        summary = self._store.kept((design, AT_REST))
+        if summary is None:
             self.solve_again()
         else:
-            self.outcome.param.update(**self._success(design, picture, from_cache=True))
+            self.outcome.param.update(**self._success(design, summary, from_cache=True))
 
     def stop(self, *_):
         """Give up the solve under way, and what waits behind it."""
@@ -101,20 +101,20 @@ class Runner:
         await self._latest.ask()
 
     async def _solve(self, document):
-        if self.outcome.picture is None or self.outcome.problem:
+        if self.outcome.summary is None or self.outcome.problem:
             self._publish(document, busy=True)
         try:
             await self._wait_for_compiler(document)
             design = self.inputs.to_design()
-            if self.outcome.picture is not None and self._store.kept((design, AT_REST)) is None:
+            if self.outcome.summary is not None and self._store.kept((design, AT_REST)) is None:
                 await self._follow(design, document)
-            picture, from_cache = await self._obtain((design, AT_REST), document)
-            changes = self._success(design, picture, from_cache)
+            summary, from_cache = await self._obtain((design, AT_REST), document)
+            changes = self._success(design, summary, from_cache)
             self._publish(document, **changes)
             modified = design != self.inputs.preset_design
-            if modified and changes["preset_picture"] is None:
+            if modified and changes["preset_summary"] is None:
                 ghost, _ = await self._obtain((self.inputs.preset_design, AT_REST), document)
-                self._publish(document, preset_picture=ghost)
+                self._publish(document, preset_summary=ghost)
         except _SupersededError:
             self._publish(document, progress=None)
         except _StoppedError:
@@ -134,8 +134,8 @@ class Runner:
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
         # what live fidelity refuses or gives up, the paper's run answers or explains
         with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
-            picture, _ = await self._obtain((design, MOVING), document)
-            self._publish(document, **self._success(design, picture, from_cache=False))
+            summary, _ = await self._obtain((design, MOVING), document)
+            self._publish(document, **self._success(design, summary, from_cache=False))
         if await self._news_within(REST):
             raise _SupersededError
 
@@ -145,10 +145,10 @@ class Runner:
             await asyncio.wait_for(self._latest.news.wait(), seconds)
         return self._latest.pending
 
-    def _success(self, design, picture, from_cache):
+    def _success(self, design, summary, from_cache):
         return {
-            "picture": picture,
-            "preset_picture": self._ghost(design),
+            "summary": summary,
+            "preset_summary": self._ghost(design),
             "from_cache": from_cache,
             "busy": self._latest.pending,
             "progress": None,
@@ -157,7 +157,7 @@ class Runner:
 
     def _ghost(self, design):
         """Return the picture of the preset that a design departs from, if it does and there is one."""
-        preset, shown = self.inputs.preset_design, self.outcome.preset_picture
+        preset, shown = self.inputs.preset_design, self.outcome.preset_summary
         if design == preset:
             return None
         return shown if shown is not None and shown.design == preset else self._store.kept((preset, AT_REST))

@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import trackig_core as tig
 from dashboard.compute.store import SolutionStore
-from dashboard.session.results import Picture
+from dashboard.session.results import SolutionSummary
 
 AT_REST = "paper"
 """Fidelity of the pictures that stay."""
@@ -22,7 +22,7 @@ LIVE_CAPACITY = 32
 """Live pictures kept: a slider drawn to and fro asks for the same ones again."""
 
 
-def take_picture(key, progress, cancelled):
+def solve_summary(key, progress, cancelled):
     """Solve a design and keep what the views show.
 
     Parameters
@@ -40,7 +40,7 @@ def take_picture(key, progress, cancelled):
     design, fidelity = key
     began = time.perf_counter()
     solution = tig.solve(design, fidelity=fidelity, progress=progress, cancelled=cancelled)
-    return Picture.of(solution, time.perf_counter() - began)
+    return SolutionSummary.of(solution, time.perf_counter() - began)
 
 
 @functools.cache
@@ -58,11 +58,11 @@ def compiled():
 @functools.cache
 def shared_store():
     """Return the store of pictures at rest that all sessions of this process share."""
-    return SolutionStore(take_picture, workers(), CAPACITY)
+    return SolutionStore(solve_summary, workers(), CAPACITY)
 
 
 @functools.cache
 def shared_live_store():
     """Return the store of pictures that follow the hand; its own threads wait for nobody's paper run."""
     threads = ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="live")
-    return SolutionStore(take_picture, threads, LIVE_CAPACITY)
+    return SolutionStore(solve_summary, threads, LIVE_CAPACITY)

@@ -9,12 +9,12 @@ from bokeh.models import ColumnDataSource, CustomJSHover, HoverTool
 from dashboard import theme
 from dashboard.figures.axes import LEVEL_STEP, AxisEnds, blank_figure, show_bands, zero_line
 from dashboard.figures.insertion_gain import ALONE_TOOLTIPS, NO_LEVELS, PIN_HOVER, pin_columns
-from dashboard.figures.legends import MOST_CURVES, PinnedLines, legend_entry, list_in, new_legend
+from dashboard.figures.legends import MOST_CURVES, PinnedLines, legend_entry, new_legend, update_legend
 
 LEAST_REACH = 4.0
 """What the axis of differences shows at least on either side [dB]."""
 
-HAND = MOST_CURVES
+CURRENT = MOST_CURVES
 """Place of the design at hand among the differences, behind those of the pins."""
 
 
@@ -47,7 +47,7 @@ class BaseDifferenceFigure:
         self._legend = new_legend(self.model, "bottom_left")
         self._hand = self.model.line(
             x="centre",
-            y=f"pin_{HAND}",
+            y=f"pin_{CURRENT}",
             source=self.differences,
             line_color=theme.THIS_DESIGN,
             line_width=theme.LINE_WIDTH,
@@ -81,8 +81,8 @@ class BaseDifferenceFigure:
         self._pinned.show(differences)
         self._hand.visible = hand is not None
         own = [] if hand is None else [self._entry]
-        list_in(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
-        tooltips = [] if hand is None else [("this design", f"@centre{{{HAND}}}")]
+        update_legend(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
+        tooltips = [] if hand is None else [("this design", f"@centre{{{CURRENT}}}")]
         tooltips += [(curve.name, f"@centre{{{place}}}") for place, curve in enumerate(differences)]
         self._hover.update(
             renderers=self._pinned.lines[:1] if hand is None else [self._hand],
@@ -95,4 +95,4 @@ class BaseDifferenceFigure:
 
 def _columns(curves, hand):
     own = NO_LEVELS if hand is None else hand
-    return {**pin_columns(curves), f"pin_{HAND}": own}
+    return {**pin_columns(curves), f"pin_{CURRENT}": own}

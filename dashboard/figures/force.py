@@ -19,7 +19,7 @@ from tsdownsample import MinMaxDownsampler
 
 from dashboard import theme
 from dashboard.figures.axes import AxisEnds, blank_figure
-from dashboard.figures.legends import MOST_CURVES, PinnedLines, legend_entry, list_in, new_legend
+from dashboard.figures.legends import MOST_CURVES, PinnedLines, legend_entry, new_legend, update_legend
 
 TIME_AXIS = (-0.005, 0.25)
 """What the time axis shows at first [s]; the rest of the record is a pan or a zoom away."""
@@ -35,7 +35,7 @@ SHOWN_AS_MILLISECONDS = 1.0
 """Span of the time axis below which it counts in ms [s]."""
 
 
-def rungs(low, high):
+def rounded_ends(low, high):
     """Return ends around data that lie on rungs 1, 2, 5, 10 ..., and a step that all of them share.
 
     Rungs are far apart, so that an axis moves a few times while a peak grows tenfold, not at each frame.
@@ -121,7 +121,7 @@ class ForceFigure:
             y_axis_label="Force into the ground, kN",
             stylesheets=[theme.LOW],
         )
-        self._picture, self._curves = None, ()
+        self._summary, self._curves = None, ()
         self._count_time_as_zoom_asks()
         self._draw_forces()
         self.model.on_event(RangesUpdate, self._zoomed)
@@ -143,7 +143,7 @@ class ForceFigure:
             ),
         ]
         self._pinned = PinnedLines(plot, plot.renderers[0], self.pins, "time", ["total"] * MOST_CURVES)
-        list_in(self._legend, self._entries, self._entries)
+        update_legend(self._legend, self._entries, self._entries)
 
     def _draw_force(self, column, words, colour, dash):
         """Draw a force of the design at hand, and return its entry in the legend."""
@@ -168,39 +168,41 @@ class ForceFigure:
         )
         return legend_entry(plot, words, line)
 
-    def show(self, picture, curves=()):
+    def show(self, summary, curves=()):
         """Draw a picture, and behind it the total force of pinned designs.
 
         Parameters
         ----------
-        picture : Picture
+        summary : SolutionSummary
             What is drawn.
         curves : tuple of Curve
             Up to eight pinned designs; the same tuple again is not sent again.
         """
         new = curves is not self._curves
-        self._picture, self._curves = picture, curves
-        forces = [picture.total_force, picture.loaded_support_force]
+        self._summary, self._curves = summary, curves
+        forces = [summary.total_force, summary.loaded_support_force]
         forces += [curve.drawn.total_force for curve in curves]
-        self._forces.show(*rungs(min(each.min() for each in forces), max(each.max() for each in forces)))
+        self._forces.show(
+            *rounded_ends(min(each.min() for each in forces), max(each.max() for each in forces))
+        )
         ends = (self.model.x_range.start, self.model.x_range.end)
         self._send(*ends)
         if new:
             self._send_pinned(*ends)
             self._pinned.show(curves)
             entries = self._entries + self._pinned.entries
-            list_in(self._legend, entries, self._entries + self._pinned.shown_entries)
+            update_legend(self._legend, entries, self._entries + self._pinned.shown_entries)
 
     def _zoomed(self, event):
-        if self._picture is not None:
+        if self._summary is not None:
             self._send(event.x0, event.x1)
             self._send_pinned(event.x0, event.x1)
 
     def _send(self, start, end):
         """Send as much of the record as can be seen: all that lies in view, an outline of the rest."""
-        picture = self._picture
-        forces = {"loaded_support": picture.loaded_support_force, "total": picture.total_force}
-        self.samples.data = _in_view(picture.time, forces, start, end)
+        summary = self._summary
+        forces = {"loaded_support": summary.loaded_support_force, "total": summary.total_force}
+        self.samples.data = _in_view(summary.time, forces, start, end)
 
     def _send_pinned(self, start, end):
         for source, curve in zip(self.pins, self._curves, strict=False):

@@ -30,8 +30,15 @@ from dashboard.figures.axes import (
     show_bands,
     zero_line,
 )
-from dashboard.figures.legends import MOST_CURVES, NO_LABEL, PinnedLines, legend_entry, list_in, new_legend
-from trackig_core.levels.specification import TOLD_APART
+from dashboard.figures.legends import (
+    MOST_CURVES,
+    NO_LABEL,
+    PinnedLines,
+    legend_entry,
+    new_legend,
+    update_legend,
+)
+from trackig_core.levels.specification import LEVEL_TOLERANCE
 
 LEAST_LEVELS = (-28.0, 18.0)
 """What the level axis shows at least, without the room [dB]."""
@@ -270,7 +277,7 @@ class InsertionGainFigure:
         }
         shown = [entry for words, entry in self._entries.items() if drawn[words]]
         entries = [*self._entries.values(), *self._pinned.entries]
-        list_in(self._legend, entries, shown + self._pinned.shown_entries)
+        update_legend(self._legend, entries, shown + self._pinned.shown_entries)
 
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
@@ -310,7 +317,7 @@ def pin_columns(curves):
 
 def _limit_columns(limit, levels):
     # comparing with NaN is false, as it is meant to be
-    exceeded = levels - limit > TOLD_APART
+    exceeded = levels - limit > LEVEL_TOLERANCE
     return {
         "centre": tig.BAND_CENTRES,
         "left": tig.BAND_EDGES[:-1],

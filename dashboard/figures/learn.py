@@ -389,7 +389,7 @@ class StiffReferenceFigure:
         }
 
 
-class LadderFigure(BandsFigure):
+class LumpedVsBeamFigure(BandsFigure):
     """Insertion gain of the chain beside that of the beam; bands where the chain will do are shaded."""
 
     CURVES = (

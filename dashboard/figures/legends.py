@@ -101,7 +101,7 @@ def new_legend(plot, location):
     return legend
 
 
-def list_in(legend, entries, shown):
+def update_legend(legend, entries, shown):
     """List in a legend what is drawn, in two columns when one would be long.
 
     Parameters

@@ -50,11 +50,11 @@ def force_csv(assessed):
     """
     header, columns = [], []
     for each in assessed:
-        picture = each.picture
-        if picture.time is None:
+        summary = each.summary
+        if summary.time is None:
             continue
         header += [f"{name} {each.name}" for name in ("time_s", "total_force_kN", "loaded_support_force_kN")]
-        curves = (picture.time, picture.total_force, picture.loaded_support_force)
+        curves = (summary.time, summary.total_force, summary.loaded_support_force)
         columns += [[f"{value:.9g}" for value in curve] for curve in curves]
     return _written(header, itertools.zip_longest(*columns, fillvalue=""))
 

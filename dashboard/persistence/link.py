@@ -15,7 +15,7 @@ from urllib.parse import urlencode
 
 from dashboard.fields import INPUTS, NUMBERS, six_figures
 from dashboard.formats import name_text, quantity_text
-from dashboard.session.inputs import DesignInputs, Presentation, preset_values
+from dashboard.session.inputs import DesignInputs, GainDefinition, preset_values
 from dashboard.session.pins import MOST, Pin, free_colour, free_name
 from dashboard.theme import DESIGN_COLOURS
 from trackig_core.names import LONGEST_NAME
@@ -41,7 +41,7 @@ CHOICES = {
 }
 """What inputs that are no numbers may be in a link."""
 
-VIEW_CHOICES = {name: tuple(Presentation.param[name].objects) for name in ("summation", "reference")}
+VIEW_CHOICES = {name: tuple(GainDefinition.param[name].objects) for name in ("summation", "reference")}
 """What choices of view may be in a link, by key; a page that offers others adds them."""
 
 SERVED = ("theme", "bokeh-", "autoload")

@@ -9,18 +9,18 @@ import trackig_core as tig
 from dashboard.persistence import link, studies
 
 
-class Keeping(param.Parameterized):
+class SessionSnapshot(param.Parameterized):
     """The parts of a session whose state is kept and shared.
 
     Parameters
     ----------
     inputs : DesignInputs
         The design at hand.
-    presentation : Presentation
+    definition : GainDefinition
         How insertion gain is reckoned.
     pins : Pins
         The pinned designs.
-    workshop : Workshop
+    assessment : Assessment
         Specification, source and the study's name.
     tabs : iterable of str
         Names of the page's tabs, in small letters; the first is open.
@@ -28,23 +28,23 @@ class Keeping(param.Parameterized):
 
     tab = param.Selector(objects=[""], doc="The tab that is open.")
 
-    def __init__(self, inputs, presentation, pins, workshop, tabs=("explore",)):
+    def __init__(self, inputs, definition, pins, assessment, tabs=("explore",)):
         super().__init__()
-        self.inputs, self.presentation, self.pins, self.workshop = inputs, presentation, pins, workshop
+        self.inputs, self.definition, self.pins, self.assessment = inputs, definition, pins, assessment
         self.param.tab.objects = list(tabs)
         self.tab = self.param.tab.objects[0]
 
     def watch(self, callback):
         """Call back whenever anything changes that is kept."""
         self.inputs.param.watch(callback, list(link.INPUTS))
-        self.presentation.param.watch(callback, ["summation", "reference"])
+        self.definition.param.watch(callback, ["summation", "reference"])
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
-        self.workshop.param.watch(callback, ["specification", "source", "title"])
+        self.assessment.param.watch(callback, ["specification", "source", "title"])
         self.param.watch(callback, "tab")
 
     @property
     def _view(self):
-        return {"summation": self.presentation.summation, "reference": self.presentation.reference}
+        return {"summation": self.definition.summation, "reference": self.definition.reference}
 
     @property
     def _base(self):
@@ -64,9 +64,9 @@ class Keeping(param.Parameterized):
             self._view,
             self.pins.pinned,
             self._base,
-            self.workshop.specification,
-            self.workshop.source,
-            self.workshop.title,
+            self.assessment.specification,
+            self.assessment.source,
+            self.assessment.title,
         )
 
     def follow(self, arguments):
@@ -106,11 +106,11 @@ class Keeping(param.Parameterized):
         """
         opened = studies.from_study(tig.Study.from_toml(data))
         self._set(opened.values, opened.pins, opened.base, opened.view)
-        self.workshop.param.update(
+        self.assessment.param.update(
             specification=opened.specification, source=opened.source, title=opened.name
         )
 
     def _set(self, values, pins, base, view):
         self.pins.replace_all(pins, base)
-        self.presentation.param.update(**view)
+        self.definition.param.update(**view)
         self.inputs.take(values)

@@ -13,7 +13,7 @@ import trackig_core as tig
 from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
 from dashboard.formats import quantity_text
 from dashboard.session.inputs import DesignInputs, design_of, display_values, preset_values
-from dashboard.session.pins import Pin, own_colours
+from dashboard.session.pins import Pin, distinct_colours
 from trackig_core.study.studies import THIS_DESIGN
 
 
@@ -116,7 +116,7 @@ def from_study(study):
     values = _values(study.design, study.preset, THIS_DESIGN, "design")
     pins = []
     for number, (each, colour) in enumerate(
-        zip(study.pinned, own_colours(pinned.colour for pinned in study.pinned), strict=True)
+        zip(study.pinned, distinct_colours(pinned.colour for pinned in study.pinned), strict=True)
     ):
         path = f"pinned[{number}]"
         if any(each.name == pin.name for pin in pins):

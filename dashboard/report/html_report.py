@@ -22,8 +22,8 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.fields import NEWTON_PER_METRE, to_display
-from dashboard.session.pins import own_colours
-from dashboard.session.results import Picture
+from dashboard.session.pins import distinct_colours
+from dashboard.session.results import SolutionSummary
 from trackig_core.study.studies import THIS_DESIGN
 
 PLOT_WIDTH = 7.3
@@ -96,7 +96,7 @@ class Line:
         Colour of its curves.
     dash : tuple of float
         Dash of its curves; empty if solid.
-    picture : Picture
+    summary : SolutionSummary
         Its solution.
     levels : numpy.ndarray (21,) [dB]
         Its insertion gain, as the study reckons it.
@@ -107,24 +107,24 @@ class Line:
     name: str
     colour: str
     dash: tuple[float, ...]
-    picture: Picture
+    summary: SolutionSummary
     levels: np.ndarray
     verdict: tig.Verdict | None
 
     @property
     def design(self):
         """The design."""
-        return self.picture.design
+        return self.summary.design
 
 
-def html_report(study, pictures, *, date, version):
+def html_report(study, summaries, *, date, version):
     """Return a report of a study.
 
     Parameters
     ----------
     study : trackig_core.Study
         What is reported: the design at hand and the pinned designs that are shown.
-    pictures : mapping of TrackDesign to Picture
+    summaries : mapping of TrackDesign to SolutionSummary
         Solutions; a shown design that has none is named as left out.
     date : datetime.date
         The day of the report.
@@ -141,7 +141,7 @@ def html_report(study, pictures, *, date, version):
     ValueError
         If there is no solution of any design that is shown.
     """
-    every = _lines(study, pictures)
+    every = _lines(study, summaries)
     shown = (True, *(each.shown for each in study.pinned))
     lines = [line for line, is_shown in zip(every, shown, strict=True) if line is not None and is_shown]
     if not lines:
@@ -153,40 +153,40 @@ def html_report(study, pictures, *, date, version):
         version=version,
         lines=lines,
         base=base,
-        left_out=[each.name for each in study.shown if each.design not in pictures],
+        left_out=[each.name for each in study.shown if each.design not in summaries],
         hidden=[each.name for each in study.pinned if not each.shown],
         kind=f"{SUMMATIONS[study.view.summation]}; {REFERENCES[study.view.reference]}",
         gain_plot=_gain_plot(lines, study.specification),
         difference_plot=_difference_plot(lines, base) if len(lines) > 1 else None,
         force_plot=_force_plot(lines),
-        step=next((line.picture.step for line in lines if line.picture.step), None),
+        step=next((line.summary.step for line in lines if line.summary.step), None),
         inputs=_inputs(lines, base),
         frequencies=_frequencies(lines),
         bands=_bands(lines, study.specification),
         margins=_margins(lines, study.specification),
         sources=_sources(lines, base, study.source),
-        fidelities=" and ".join(sorted({line.picture.solution.fidelity for line in lines})),
-        notes=[(line.name, line.picture.solution.notes) for line in lines if line.picture.solution.notes],
+        fidelities=" and ".join(sorted({line.summary.solution.fidelity for line in lines})),
+        notes=[(line.name, line.summary.solution.notes) for line in lines if line.summary.solution.notes],
         file=study.to_toml(),
         theme=theme,
     )
 
 
-def _lines(study, pictures):
+def _lines(study, summaries):
     """Return the design at hand and every pinned one, as :func:`_line` does."""
-    at_hand = _line(study, THIS_DESIGN, study.design, (theme.THIS_DESIGN, ()), pictures)
-    colours = own_colours(each.colour for each in study.pinned)
+    at_hand = _line(study, THIS_DESIGN, study.design, (theme.THIS_DESIGN, ()), summaries)
+    colours = distinct_colours(each.colour for each in study.pinned)
     looks = ((theme.DESIGN_COLOURS[colour], theme.DESIGN_DASHES[colour]) for colour in colours)
     pinned = zip(study.pinned, looks, strict=True)
-    return [at_hand, *(_line(study, each.name, each.design, look, pictures) for each, look in pinned)]
+    return [at_hand, *(_line(study, each.name, each.design, look, summaries) for each, look in pinned)]
 
 
-def _line(study, name, design, look, pictures):
+def _line(study, name, design, look, summaries):
     """Return a design with its colour and dash, or None if it has not been solved."""
-    picture = pictures.get(design)
-    if picture is None:
+    summary = summaries.get(design)
+    if summary is None:
         return None
-    solution, view = picture.solution, study.view
+    solution, view = summary.solution, study.view
     levels = tig.insertion_gain(
         solution.spectrum,
         solution.design,
@@ -198,7 +198,7 @@ def _line(study, name, design, look, pictures):
         name=name,
         colour=look[0],
         dash=look[1],
-        picture=picture,
+        summary=summary,
         levels=levels,
         verdict=study.specification.check(levels) if study.specification else None,
     )
@@ -295,15 +295,15 @@ def _difference_plot(lines, base):
 
 def _force_plot(lines):
     """Return the force over time of all designs that were stepped in time, or None."""
-    stepped = [line for line in lines if line.picture.time is not None]
+    stepped = [line for line in lines if line.summary.time is not None]
     if not stepped:
         return None
     with _DRAWING:
         figure, axes = _plot(2.6)
         for line in reversed(stepped):
-            picture = line.picture
-            shown = (TIME_AXIS[0] <= picture.time) & (picture.time <= TIME_AXIS[1])
-            _curve(axes, 1000 * picture.time[shown], picture.total_force[shown], line)
+            summary = line.summary
+            shown = (TIME_AXIS[0] <= summary.time) & (summary.time <= TIME_AXIS[1])
+            _curve(axes, 1000 * summary.time[shown], summary.total_force[shown], line)
         axes.set_xlim(1000 * TIME_AXIS[0], 1000 * TIME_AXIS[1])
         axes.axhline(0, color=theme.REPORT_FAINT, linewidth=1)
         _name_axes(axes, "Time since the step, ms", "Force into the ground, kN")
@@ -357,7 +357,7 @@ def _has_own_loss(design, field):
 def _frequencies(lines):
     """Return rows of (name, cells)."""
     return [
-        (name, [_hertz(take(line.picture.solution.natural_frequencies)) for line in lines])
+        (name, [_hertz(take(line.summary.solution.natural_frequencies)) for line in lines])
         for name, take in FREQUENCIES
     ]
 

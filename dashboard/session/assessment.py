@@ -13,7 +13,7 @@ import param
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.session.results import Picture
+from dashboard.session.results import SolutionSummary
 from trackig_core.study.studies import THIS_DESIGN
 
 
@@ -33,7 +33,7 @@ class Assessed:
         Dash of its curves; empty if solid.
     shown : bool
         Whether it is drawn.
-    picture : Picture
+    summary : SolutionSummary
         Its last good picture.
     levels : numpy.ndarray (21,)
         Its insertion gain [dB].
@@ -48,24 +48,24 @@ class Assessed:
     colour: str
     dash: tuple[float, ...]
     shown: bool
-    picture: Picture
+    summary: SolutionSummary
     levels: np.ndarray
     verdict: tig.Verdict | None
     level: tig.TrackLevel | None
 
 
-class Workshop(param.Parameterized):
+class Assessment(param.Parameterized):
     """Specification, source and the designs that are held against them.
 
     Parameters
     ----------
     outcome : Outcome
         Picture of the design at hand.
-    presentation : Presentation
+    definition : GainDefinition
         How insertion gain is reckoned.
     pins : Pins
         The pinned designs.
-    pinned : PinnedPictures
+    pinned : PinnedSummaries
         Their pictures, by key.
     curves : PinnedCurves
         Their insertion gain, by key.
@@ -76,12 +76,12 @@ class Workshop(param.Parameterized):
     title = param.String(default=tig.Study.name, doc="What the study is called.")
     assessed = param.Parameter(default=(), doc="A tuple of Assessed, the design at hand first.")
 
-    def __init__(self, outcome, presentation, pins, pinned, curves):
+    def __init__(self, outcome, definition, pins, pinned, curves):
         super().__init__()
-        self._outcome, self._presentation = outcome, presentation
+        self._outcome, self._definition = outcome, definition
         self._pins, self._pinned, self._curves = pins, pinned, curves
-        outcome.param.watch(self._assess, "picture")
-        presentation.param.watch(self._assess, ["summation", "reference"])
+        outcome.param.watch(self._assess, "summary")
+        definition.param.watch(self._assess, ["summation", "reference"])
         pins.param.watch(self._assess, ["pinned", "base"])
         curves.param.watch(self._assess, "levels")
         self.param.watch(self._assess, ["specification", "source"])
@@ -101,24 +101,24 @@ class Workshop(param.Parameterized):
         self.assessed = tuple(self._assessments())
 
     def _assessments(self):
-        picture, levels = self._outcome.picture, self._curves.levels
-        if picture is not None:
-            gain = self._presentation.levels(picture.solution)
-            yield self._assessment(None, THIS_DESIGN, theme.THIS_DESIGN, (), True, picture, gain)
+        summary, levels = self._outcome.summary, self._curves.levels
+        if summary is not None:
+            gain = self._definition.levels(summary.solution)
+            yield self._assessment(None, THIS_DESIGN, theme.THIS_DESIGN, (), True, summary, gain)
         for pin in self._pins.pinned:
             if pin.key in levels:
-                picture = self._pinned.pictures[pin.key]
+                summary = self._pinned.summaries[pin.key]
                 look = (pin.key, pin.name, pin.colour_code, pin.dash, pin.shown)
-                yield self._assessment(*look, picture, levels[pin.key])
+                yield self._assessment(*look, summary, levels[pin.key])
 
-    def _assessment(self, key, name, colour, dash, shown, picture, levels):
+    def _assessment(self, key, name, colour, dash, shown, summary, levels):
         return Assessed(
             key=key,
             name=name,
             colour=colour,
             dash=dash,
             shown=shown,
-            picture=picture,
+            summary=summary,
             levels=levels,
             verdict=None if self.specification is None else self.specification.check(levels),
             level=None if self.source is None else self.source.with_track(levels),

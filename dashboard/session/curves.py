@@ -39,9 +39,9 @@ class PinnedCurves(param.Parameterized):
     ----------
     pins : Pins
         The pins.
-    pinned : PinnedPictures
+    pinned : PinnedSummaries
         Their pictures.
-    presentation : Presentation
+    definition : GainDefinition
         How insertion gain is reckoned.
     """
 
@@ -49,21 +49,21 @@ class PinnedCurves(param.Parameterized):
     gains = param.Parameter(default=(), doc="Curve of insertion gain of each shown pin.")
     forces = param.Parameter(default=(), doc="Curve of each shown pin, its picture for the force.")
 
-    def __init__(self, pins, pinned, presentation):
+    def __init__(self, pins, pinned, definition):
         super().__init__()
-        self._pins, self._pinned, self._presentation = pins, pinned, presentation
+        self._pins, self._pinned, self._definition = pins, pinned, definition
         pins.param.watch(self._collect, "pinned")
-        pinned.param.watch(self._collect, "pictures")
-        presentation.param.watch(self._collect, ["summation", "reference"])
+        pinned.param.watch(self._collect, "summaries")
+        definition.param.watch(self._collect, ["summation", "reference"])
         self._collect()
 
     def _collect(self, *_):
-        pictures, shown = self._pinned.pictures, self._pins.shown
-        there = [pin for pin in self._pins.pinned if pin.key in pictures]
-        levels = {pin.key: self._presentation.levels(pictures[pin.key].solution) for pin in there}
-        forces = [(pin, pictures[pin.key]) for pin in there if pin in shown]
+        summaries, shown = self._pinned.summaries, self._pins.shown
+        there = [pin for pin in self._pins.pinned if pin.key in summaries]
+        levels = {pin.key: self._definition.levels(summaries[pin.key].solution) for pin in there}
+        forces = [(pin, summaries[pin.key]) for pin in there if pin in shown]
         self.param.update(
             levels=MappingProxyType(levels),
             gains=tuple(Curve(pin.name, levels[pin.key], pin.colour_code, pin.dash) for pin, _ in forces),
-            forces=tuple(Curve(pin.name, picture, pin.colour_code, pin.dash) for pin, picture in forces),
+            forces=tuple(Curve(pin.name, summary, pin.colour_code, pin.dash) for pin, summary in forces),
         )

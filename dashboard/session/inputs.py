@@ -177,7 +177,7 @@ def check_values(values):
     DesignInputs(**values)
 
 
-class Presentation(param.Parameterized):
+class GainDefinition(param.Parameterized):
     """How insertion gain is reckoned from a spectrum: a matter of looking, which needs no new solution."""
 
     summation = param.Selector(

@@ -289,7 +289,7 @@ def free_colour(pinned):
     return next(colour for colour in range(MOST) if colour not in taken)
 
 
-def own_colours(wanted):
+def distinct_colours(wanted):
     """Return colours that tell designs apart, whatever colours they want.
 
     Parameters

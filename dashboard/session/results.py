@@ -11,7 +11,7 @@ from dashboard.fields import KILONEWTON
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class SolutionSummary:
     """What the views show of one solution: all of it but the force under every single support.
 
     Attributes
@@ -57,12 +57,12 @@ class Picture:
 
 
 @dataclass(frozen=True, eq=False)
-class Checked:
+class VerifiedSummary:
     """A picture, and what theory says of it.
 
     Attributes
     ----------
-    picture : Picture
+    summary : SolutionSummary
         What was checked.
     theory : trackig_core.Verification or None
         Exact answers and convergence studies; None if there are none.
@@ -70,7 +70,7 @@ class Checked:
         Why there are none, else empty.
     """
 
-    picture: Picture
+    summary: SolutionSummary
     theory: tig.Verification | None
     problem: str = ""
 
@@ -78,9 +78,14 @@ class Checked:
 class Outcome(param.Parameterized):
     """The last good picture, how the solver fares, and what theory says of the picture."""
 
-    picture = param.ClassSelector(class_=Picture, default=None, allow_None=True, doc="Last good solution.")
-    preset_picture = param.ClassSelector(
-        class_=Picture, default=None, allow_None=True, doc="The preset's, while the design is modified."
+    summary = param.ClassSelector(
+        class_=SolutionSummary, default=None, allow_None=True, doc="Last good solution."
+    )
+    preset_summary = param.ClassSelector(
+        class_=SolutionSummary,
+        default=None,
+        allow_None=True,
+        doc="The preset's, while the design is modified.",
     )
     busy = param.Boolean(default=False, doc="Whether a solution is awaited.")
     compiling = param.Boolean(default=False, doc="Whether the solver is still being compiled.")
@@ -88,9 +93,12 @@ class Outcome(param.Parameterized):
         default=None, bounds=(0, 1), allow_None=True, doc="Part of a long run that is done; None when short."
     )
     from_cache = param.Boolean(default=False, doc="Whether the picture was there already.")
-    checking = param.Boolean(default=False, doc="Whether anybody looks at the checks.")
-    checked = param.ClassSelector(
-        class_=Checked, default=None, allow_None=True, doc="The picture that was last held against theory."
+    verifying = param.Boolean(default=False, doc="Whether anybody looks at the checks.")
+    verified = param.ClassSelector(
+        class_=VerifiedSummary,
+        default=None,
+        allow_None=True,
+        doc="The picture that was last held against theory.",
     )
     problem = param.String(default="", doc="Why the picture is not that of the inputs; empty when it is.")
 

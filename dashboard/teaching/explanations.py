@@ -372,7 +372,7 @@ def _about_sums(differences, waves_begin):
 
 
 @dataclass(frozen=True, eq=False)
-class Ladder:
+class LumpedVsBeam:
     """Chain beside beam.
 
     Attributes
@@ -387,7 +387,7 @@ class Ladder:
     words: tuple[str, ...]
 
 
-def ladder(design, reference, summation):
+def lumped_vs_beam(design, reference, summation):
     """Return the insertion gain of the chain beside that of the beam.
 
     Parameters
@@ -399,7 +399,7 @@ def ladder(design, reference, summation):
 
     Returns
     -------
-    Ladder
+    LumpedVsBeam
         Both, and sentences.
     """
     comparison = tig.compare_with_beam(design, reference, summation)
@@ -408,7 +408,7 @@ def ladder(design, reference, summation):
     more = "more" if gap[worst] < 0 else "less"
     supports = tig.effective_supports(design)
     where = band_ranges(good)
-    return Ladder(
+    return LumpedVsBeam(
         comparison,
         (
             f"The chain puts the wheel on {supports:.1f} supports side by side: as stiff as the rail makes "

@@ -49,7 +49,7 @@ class BandGrid(Scripted):
     on_typed = None
     on_pasted = None
 
-    def heed(self, message):
+    def handle_message(self, message):
         """Hand on what was typed or pasted."""
         last = len(self.bands) - 1
         match message:
@@ -76,7 +76,7 @@ class BandEditor(Viewer):
 
     Parameters
     ----------
-    workshop : Workshop
+    assessment : Assessment
         Where the table is kept.
     name : str
         Which of its tables: ``"specification"`` or ``"source"``.
@@ -88,10 +88,10 @@ class BandEditor(Viewer):
         Caption of the table.
     """
 
-    def __init__(self, workshop, name, exchange, given, words):
+    def __init__(self, assessment, name, exchange, given, words):
         super().__init__()
-        self._workshop, self._name, self._exchange = workshop, name, exchange
-        self._kind = workshop.param[name].class_
+        self._assessment, self._name, self._exchange = assessment, name, exchange
+        self._kind = assessment.param[name].class_
         self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
         self.message = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(0, 12, 4, 12))
@@ -109,13 +109,13 @@ class BandEditor(Viewer):
         self.save = _button("Save CSV", "download", on_click=self._save)
         self.clear = _button("Clear", "delete", on_click=self._clear)
         exchange.on_file(name, self.take)
-        workshop.param.watch(self._show, name)
+        assessment.param.watch(self._show, name)
         self._show()
 
     @property
     def table(self):
         """The table as it is kept, or None."""
-        return getattr(self._workshop, self._name)
+        return getattr(self._assessment, self._name)
 
     def take(self, data):
         """Take a whole table, as bytes or text, or say why not."""
@@ -170,7 +170,7 @@ class BandEditor(Viewer):
 
     def _keep(self, table):
         self._tell("")
-        setattr(self._workshop, self._name, table)
+        setattr(self._assessment, self._name, table)
         # the box of a number that was typed in another form, or refused, shows the number as it is kept
         self.grid.show_again()
 
@@ -186,7 +186,7 @@ class BandEditor(Viewer):
         self._exchange.save(file_name(self._name, "template.csv"), self._kind.template_csv())
 
     def _save(self, *_):
-        self._exchange.save(file_name(self._workshop.title, f"{self._name}.csv"), self.table.to_csv())
+        self._exchange.save(file_name(self._assessment.title, f"{self._name}.csv"), self.table.to_csv())
 
     def _clear(self, *_):
         self._keep(None)

@@ -10,12 +10,12 @@ from panel.viewable import Viewer
 import trackig_core as tig
 from dashboard import theme
 from dashboard.client.exchange import tell
-from dashboard.compute.document import Later
+from dashboard.compute.document import NextTick
 from dashboard.figures.comparison import BaseDifferenceFigure
 from dashboard.session.inputs import display_values
 from dashboard.session.pins import PinError
 from dashboard.views.comparison_table import Column, table_html
-from dashboard.views.components import HAND, HAND_NAME, PAPER, bokeh_pane, caption
+from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption
 from dashboard.views.pin_list import PinList
 
 FEW_BANDS = ("16", "31.5", "63", "125", "250")
@@ -31,11 +31,11 @@ class Compare(Viewer):
         Where a pin's values are put back.
     outcome : Outcome
         Whose picture is compared with the pins.
-    presentation : Presentation
+    definition : GainDefinition
         How insertion gain is reckoned.
     pins : Pins
         The pins.
-    pinned : PinnedPictures
+    pinned : PinnedSummaries
         Their pictures.
     curves : PinnedCurves
         What is drawn of them.
@@ -45,9 +45,9 @@ class Compare(Viewer):
 
     title = "Compare"
 
-    def __init__(self, inputs, outcome, presentation, pins, pinned, curves, on_figure_2):
+    def __init__(self, inputs, outcome, definition, pins, pinned, curves, on_figure_2):
         super().__init__()
-        self._outcome, self._presentation = outcome, presentation
+        self._outcome, self._definition = outcome, definition
         self._pins, self._pinned, self._curves = pins, pinned, curves
         self._on_figure_2 = on_figure_2
         self._in_sight = False
@@ -69,10 +69,10 @@ class Compare(Viewer):
         )
         self.differences = BaseDifferenceFigure()
         self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[theme.TABLE_CSS], margin=0)
-        outcome.param.watch(self._show, "picture")
-        self._show_later = Later(self._show)
+        outcome.param.watch(self._show, "summary")
+        self._show_later = NextTick(self._show)
         self.bands.param.watch(self._show_later, "value")
-        presentation.param.watch(self._show_later, ["summation", "reference"])
+        definition.param.watch(self._show_later, ["summation", "reference"])
         curves.param.watch(self._show_later, ["levels", "gains"])
         pins.param.watch(self._offer_bases, ["pinned", "base"])
         pins.param.watch(self._show_later, ["pinned", "base"])
@@ -98,8 +98,8 @@ class Compare(Viewer):
             self._on_figure_2()
 
     def _offer_bases(self, *_):
-        options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
-        value = self._pins.base or HAND
+        options = {CURRENT_NAME: CURRENT} | {pin.name: pin.key for pin in self._pins.pinned}
+        value = self._pins.base or CURRENT
         if self.base is not None and (self.base.options, self.base.value) == (options, value):
             return
         # made anew: the browser's select fails when its options change before its tab was ever seen
@@ -118,11 +118,11 @@ class Compare(Viewer):
         self._pins.choose_base(event.new or None)
 
     def _show(self, *_):
-        picture = self._outcome.picture
-        if not self._in_sight or picture is None:
+        summary = self._outcome.summary
+        if not self._in_sight or summary is None:
             return
-        levels, base_key = self._presentation.levels(picture.solution), self._pins.base
-        columns = [self._hand_column(picture, levels), *map(self._pin_column, self._pins.pinned)]
+        levels, base_key = self._definition.levels(summary.solution), self._pins.base
+        columns = [self._current_column(summary, levels), *map(self._pin_column, self._pins.pinned)]
         base = next(column for column in columns if column.key == base_key)
         name = None if base_key is None else base.name
         self.differences.show(
@@ -137,20 +137,20 @@ class Compare(Viewer):
             [band for band, label in enumerate(tig.BAND_LABELS) if label in self.bands.value],
         )
 
-    def _hand_column(self, picture, levels):
+    def _current_column(self, summary, levels):
         return Column(
             None,
-            HAND_NAME,
-            display_values(picture.design),
-            picture.solution.natural_frequencies,
+            CURRENT_NAME,
+            display_values(summary.design),
+            summary.solution.natural_frequencies,
             levels,
             theme.THIS_DESIGN,
             (),
         )
 
     def _pin_column(self, pin):
-        picture = self._pinned.pictures.get(pin.key)
-        natural = None if picture is None else picture.solution.natural_frequencies
+        summary = self._pinned.summaries.get(pin.key)
+        natural = None if summary is None else summary.solution.natural_frequencies
         levels = self._curves.levels.get(pin.key)
         return Column(pin.key, pin.name, pin.values, natural, levels, pin.colour_code, pin.dash)
 

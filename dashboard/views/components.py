@@ -5,10 +5,10 @@ import panel_material_ui as pmui
 
 from dashboard import theme
 
-HAND_NAME = "this\N{NO-BREAK SPACE}design"
+CURRENT_NAME = "this\N{NO-BREAK SPACE}design"
 """What the design at hand is called; no pin can be called so, since names hold no such space."""
 
-HAND = 0
+CURRENT = 0
 """Stands for the design at hand where keys of pins are chosen from, which count from 1."""
 
 PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": theme.PANEL}
@@ -29,9 +29,9 @@ def bokeh_pane(model):
     return pn.pane.Bokeh(model, sizing_mode="stretch_width", margin=0)
 
 
-def gain_axis(presentation):
+def gain_axis(definition):
     """Return what the insertion gain's axis is called, the choice named in it."""
-    return f"IG, dB ({SUMMATION_AXIS[presentation.summation]} / {presentation.reference})"
+    return f"IG, dB ({SUMMATION_AXIS[definition.summation]} / {definition.reference})"
 
 
 SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}

@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import theme
-from dashboard.compute.document import Later
+from dashboard.compute.document import NextTick
 from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
@@ -23,31 +23,31 @@ class Explore(Viewer):
     ----------
     outcome : Outcome
         Whose picture is shown.
-    presentation : Presentation
+    definition : GainDefinition
         How its insertion gain is reckoned.
     pins : Pins
         Pinned designs, which are drawn behind it.
     curves : PinnedCurves
         What is drawn of them.
-    workshop : Workshop
+    assessment : Assessment
         Whose specification is drawn as a limit.
     """
 
     title = "Explore"
 
-    def __init__(self, outcome, presentation, pins, curves, workshop):
+    def __init__(self, outcome, definition, pins, curves, assessment):
         super().__init__()
-        self._outcome, self._presentation = outcome, presentation
-        self._pins, self._curves, self._workshop = pins, curves, workshop
+        self._outcome, self._definition = outcome, definition
+        self._pins, self._curves, self._assessment = pins, curves, assessment
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
-        self.verdict = ShortVerdict(workshop)
+        self.verdict = ShortVerdict(assessment)
         self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
             label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
         )
-        self.show_hand = pmui.Button(
+        self.show_current = pmui.Button(
             label="Show this design",
             icon="visibility",
             size="small",
@@ -60,20 +60,20 @@ class Explore(Viewer):
             pn.widgets.Select.from_param(
                 parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[theme.SELECT_CSS]
             )
-            for parameter in (presentation.param.summation, presentation.param.reference)
+            for parameter in (definition.param.summation, definition.param.reference)
         ]
-        outcome.param.watch(self._show, ["picture", "preset_picture"])
+        outcome.param.watch(self._show, ["summary", "preset_summary"])
         outcome.param.watch(self._dim, ["problem", "progress"])
-        show_gain = Later(self._show_gain)
-        presentation.param.watch(show_gain, ["reference", "summation"])
+        show_gain = NextTick(self._show_gain)
+        definition.param.watch(show_gain, ["reference", "summation"])
         pins.param.watch(show_gain, "alone")
         curves.param.watch(show_gain, "gains")
-        curves.param.watch(Later(self._show_forces), "forces")
-        workshop.param.watch(show_gain, "specification")
+        curves.param.watch(NextTick(self._show_forces), "forces")
+        assessment.param.watch(show_gain, "specification")
         self._show_all()
 
     def _show(self, *events):
-        if any(event.name == "picture" for event in events):
+        if any(event.name == "summary" for event in events):
             self._show_all()
         else:
             self._show_gain()
@@ -83,26 +83,26 @@ class Explore(Viewer):
         self._show_gain()
 
     def _show_forces(self):
-        picture = self._outcome.picture
-        if picture is not None:
-            self.force.show(picture, self._curves.forces)
-            self._name_fidelity(picture.solution.fidelity)
+        summary = self._outcome.summary
+        if summary is not None:
+            self.force.show(summary, self._curves.forces)
+            self._name_fidelity(summary.solution.fidelity)
 
     def _name_fidelity(self, fidelity):
         words, variant = FIDELITY_CHIPS[fidelity]
         self.fidelity.param.update(label=words, variant=variant, visible=True)
 
     def _show_gain(self):
-        chosen = self._presentation
+        chosen = self._definition
         self.insertion_gain.name_axis(gain_axis(chosen))
-        picture, preset = self._outcome.picture, self._outcome.preset_picture
-        specification = self._workshop.specification
-        if picture is None:
+        summary, preset = self._outcome.summary, self._outcome.preset_summary
+        specification = self._assessment.specification
+        if summary is None:
             return
         self.insertion_gain.show(
-            chosen.levels(picture.solution),
+            chosen.levels(summary.solution),
             None if preset is None else chosen.levels(preset.solution),
-            picture.solution.natural_frequencies,
+            summary.solution.natural_frequencies,
             curves=self._curves.gains,
             limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
@@ -131,7 +131,7 @@ class Explore(Viewer):
                     sizing_mode="stretch_width",
                     margin=(0, 12, 4, 12),
                 ),
-                self.show_hand,
+                self.show_current,
                 sizing_mode="stretch_width",
                 margin=0,
             ),

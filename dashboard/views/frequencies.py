@@ -45,7 +45,7 @@ class Frequencies(Viewer):
         self.pane = pn.pane.HTML(
             "", sizing_mode="stretch_width", stylesheets=[theme.FREQUENCIES_CSS], margin=0
         )
-        outcome.param.watch(self._show, "picture")
+        outcome.param.watch(self._show, "summary")
         self._show()
 
     def look(self, in_sight):
@@ -56,8 +56,8 @@ class Frequencies(Viewer):
     def _show(self, *_):
         if not self._in_sight:
             return
-        picture = self._outcome.picture
-        self.pane.object = "" if picture is None else frequencies_html(picture.solution.natural_frequencies)
+        summary = self._outcome.summary
+        self.pane.object = "" if summary is None else frequencies_html(summary.solution.natural_frequencies)
 
     def __panel__(self):
         """Return what is put on the page."""

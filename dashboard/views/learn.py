@@ -12,9 +12,9 @@ from panel.viewable import Viewer
 
 from dashboard.views.lessons import Lessons
 from dashboard.views.motion import Motion
-from dashboard.views.subjects import Damping, Definitions, Ladder, Resonances, Slopes
+from dashboard.views.subjects import Damping, Definitions, LumpedVsBeam, Resonances, Slopes
 
-EXPLAINING = (Motion, Resonances, Slopes, Damping, Definitions, Ladder)
+EXPLAINING = (Motion, Resonances, Slopes, Damping, Definitions, LumpedVsBeam)
 """Subjects beside the lessons, in the order of the menu."""
 
 
@@ -27,17 +27,17 @@ class Learn(Viewer):
         The sliders that lessons set.
     outcome : Outcome
         Whose design is explained.
-    presentation : Presentation
+    definition : GainDefinition
         How insertion gain is reckoned.
     """
 
     title = "Learn"
 
-    def __init__(self, inputs, outcome, presentation):
+    def __init__(self, inputs, outcome, definition):
         super().__init__()
         self._makers = {
-            "Lessons": partial(Lessons, outcome, presentation, inputs),
-            **{kind.title: partial(kind, outcome, presentation) for kind in EXPLAINING},
+            "Lessons": partial(Lessons, outcome, definition, inputs),
+            **{kind.title: partial(kind, outcome, definition) for kind in EXPLAINING},
         }
         self._made = {}
         self._looked_at = False

@@ -46,9 +46,9 @@ class Lessons(Subject):
         Curve("start", "where the lesson starts", theme.PRESET_GHOST, theme.SECOND_DASH),
     )
 
-    def __init__(self, outcome, presentation, inputs, folder=None):
+    def __init__(self, outcome, definition, inputs, folder=None):
         self.lessons, self.faults = load_lessons() if folder is None else load_lessons(folder)
-        super().__init__(outcome, presentation)
+        super().__init__(outcome, definition)
         self._inputs = inputs
         titles = {f"{number}. {lesson.title}": lesson for number, lesson in enumerate(self.lessons, 1)}
         self.menu = pn.widgets.Select(
@@ -77,8 +77,8 @@ class Lessons(Subject):
         )
         self.figure = BandsFigure("lesson", self.CURVES)
         self.menu.param.watch(self._open, "value")
-        outcome.param.watch(self._draw, "picture")
-        presentation.param.watch(self._draw, ["reference", "summation"])
+        outcome.param.watch(self._draw, "summary")
+        definition.param.watch(self._draw, ["reference", "summation"])
         self._open()
 
     def _follow(self, *_):
@@ -103,13 +103,13 @@ class Lessons(Subject):
         return _taught, _Key(lesson)
 
     def _draw(self, *_):
-        picture, answer = self.outcome.picture, self.question.answer
-        if picture is None or answer is None:
+        summary, answer = self.outcome.summary, self.question.answer
+        if summary is None or answer is None:
             return
         _, start = answer
-        chosen = self.presentation
+        chosen = self.definition
         self.figure.name_axis(gain_axis(chosen))
-        self.figure.show(level=chosen.levels(picture.solution), start=chosen.levels(start))
+        self.figure.show(level=chosen.levels(summary.solution), start=chosen.levels(start))
 
     def show(self, answer):
         """Show the introduction; what is revealed waits."""

@@ -40,8 +40,8 @@ class Motion(Subject):
     title = "Motion"
     at_rest_only = True
 
-    def __init__(self, outcome, presentation):
-        super().__init__(outcome, presentation)
+    def __init__(self, outcome, definition):
+        super().__init__(outcome, definition)
         self.film, self.shape = FilmPlayer(), ShapePlayer()
         self.pick = PickFigure(frequency=100.0)
         self.shape_words = words()
@@ -79,8 +79,8 @@ class Motion(Subject):
         )
         self.pick.cursor.on_change("location", self._picked)
         self.frequency.param.watch(self._slid, "value")
-        outcome.param.watch(self._show_shape, "picture")
-        presentation.param.watch(self._show_shape, ["reference", "summation"])
+        outcome.param.watch(self._show_shape, "summary")
+        definition.param.watch(self._show_shape, ["reference", "summation"])
         self.question.param.watch(self._show_shape, "looked_at")
         self._follow()
 
@@ -94,8 +94,8 @@ class Motion(Subject):
 
     def _jump(self, which):
         def jump(_):
-            picture = self.outcome.picture
-            frequency = None if picture is None else which(picture.solution.natural_frequencies)
+            summary = self.outcome.summary
+            frequency = None if summary is None else which(summary.solution.natural_frequencies)
             if frequency is not None:
                 self.pick.cursor.location = min(max(frequency, BAND_AXIS[0]), BAND_AXIS[1])
 
@@ -111,15 +111,15 @@ class Motion(Subject):
         self._show_shape()
 
     def _show_shape(self, *_):
-        picture = self.outcome.picture
-        if picture is None or not self.question.looked_at:
+        summary = self.outcome.summary
+        if summary is None or not self.question.looked_at:
             return
-        self.pick.name_axis(gain_axis(self.presentation))
-        self.pick.show(level=self.presentation.levels(picture.solution))
-        shape = tig.steady_shape(picture.design, float(self.pick.cursor.location))
+        self.pick.name_axis(gain_axis(self.definition))
+        self.pick.show(level=self.definition.levels(summary.solution))
+        shape = tig.steady_shape(summary.design, float(self.pick.cursor.location))
         self.shape.show(shape)
         self.shape_words.object = explanations.shape_words(shape)
-        self.jumps[2].disabled = not picture.design.two_stage
+        self.jumps[2].disabled = not summary.design.two_stage
 
     def __panel__(self):
         """Return what is put on the page."""

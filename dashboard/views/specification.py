@@ -19,7 +19,7 @@ class SpecificationView(Viewer):
 
     Parameters
     ----------
-    workshop : Workshop
+    assessment : Assessment
         What is edited and shown.
     exchange : Exchange
         Opens and saves files.
@@ -27,21 +27,21 @@ class SpecificationView(Viewer):
 
     title = "Specification"
 
-    def __init__(self, workshop, exchange):
+    def __init__(self, assessment, exchange):
         super().__init__()
         self._in_sight = False
-        self._workshop = workshop
+        self._assessment = assessment
         self.verdict = pn.pane.HTML(
             "", stylesheets=[theme.VERDICT_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
         )
         self.editor = BandEditor(
-            workshop,
+            assessment,
             "specification",
             exchange,
             "Limit, dB",
             "Greatest insertion gain allowed, and the designs",
         )
-        workshop.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, "assessed")
 
     def look(self, in_sight):
         """Note whether the tab is in sight; if so, show what has changed meanwhile."""
@@ -51,8 +51,8 @@ class SpecificationView(Viewer):
     def _show(self, *_):
         if not self._in_sight:
             return
-        self.verdict.object = verdicts_html(self._workshop.assessed)
-        self.editor.grid.designs = [_design(each) for each in self._workshop.shown]
+        self.verdict.object = verdicts_html(self._assessment.assessed)
+        self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
 
     def __panel__(self):
         """Return what is put on the page."""

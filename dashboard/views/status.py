@@ -33,7 +33,7 @@ class Status(Viewer):
         )
         self.stop = _button("Stop", "stop", on_stop)
         self.solve = _button("Solve", "play_arrow", on_solve)
-        shown = ["picture", "busy", "compiling", "progress", "from_cache", "problem"]
+        shown = ["summary", "busy", "compiling", "progress", "from_cache", "problem"]
         outcome.param.watch(self._show, shown)
         self._show()
 
@@ -94,14 +94,14 @@ def status_words(outcome):
         return "Solving a long record …"
     if outcome.problem and not outcome.busy:
         return outcome.problem
-    if outcome.picture is None:
+    if outcome.summary is None:
         return "Solving …" if outcome.busy else "Not solved yet"
-    picture = outcome.picture
-    took = formats.duration_text(picture.seconds)
-    if picture.solution.fidelity == "live":
+    summary = outcome.summary
+    took = formats.duration_text(summary.seconds)
+    if summary.solution.fidelity == "live":
         words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
     elif outcome.from_cache:
         words = "Paper's run, solved before"
     else:
         words = f"Paper's run, solved in {took}"
-    return " · ".join((words, *picture.solution.notes))
+    return " · ".join((words, *summary.solution.notes))

@@ -10,12 +10,12 @@ from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.compute.questions import Question, Teacher
+from dashboard.compute.questions import Question, QuestionRunner
 from dashboard.fields import NUMBERS, SECOND_STAGE, to_display
 from dashboard.figures.learn import (
     BandsFigure,
     Curve,
-    LadderFigure,
+    LumpedVsBeamFigure,
     SlopesFigure,
     StiffReferenceFigure,
     SweepFigure,
@@ -38,7 +38,7 @@ class Subject(Viewer):
     ----------
     outcome : Outcome
         Whose design is asked about.
-    presentation : Presentation
+    definition : GainDefinition
         How insertion gain is reckoned.
 
     Attributes
@@ -52,24 +52,24 @@ class Subject(Viewer):
     title = ""
     at_rest_only = False
 
-    def __init__(self, outcome, presentation):
+    def __init__(self, outcome, definition):
         super().__init__()
-        self.outcome, self.presentation = outcome, presentation
+        self.outcome, self.definition = outcome, definition
         self.question = Question()
-        Teacher(self.question)
+        QuestionRunner(self.question)
         self.problem = pmui.Alert(
             object="", severity="warning", visible=False, sizing_mode="stretch_width", margin=(4, 8)
         )
         self.question.param.watch(self._complain, "problem")
         self.question.param.watch(self._answered, "answer")
-        outcome.param.watch(self._follow, "picture")
-        presentation.param.watch(self._follow, ["reference", "summation"])
+        outcome.param.watch(self._follow, "summary")
+        definition.param.watch(self._follow, ["reference", "summation"])
 
     def _follow(self, *_):
-        picture = self.outcome.picture
-        if picture is None or (self.at_rest_only and picture.solution.fidelity == "live"):
+        summary = self.outcome.summary
+        if summary is None or (self.at_rest_only and summary.solution.fidelity == "live"):
             return
-        self.question.asked = self.ask(picture.design)
+        self.question.asked = self.ask(summary.design)
 
     def _complain(self, *_):
         self.problem.param.update(object=self.question.problem, visible=bool(self.question.problem))
@@ -87,9 +87,9 @@ class Subject(Viewer):
         raise NotImplementedError
 
     @property
-    def definition(self):
+    def gain_arguments(self):
         """How insertion gain is reckoned, as arguments of a lecture."""
-        return self.presentation.reference, self.presentation.summation
+        return self.definition.reference, self.definition.summation
 
 
 def words(*_):
@@ -122,8 +122,8 @@ class Resonances(Subject):
 
     title = "Resonances"
 
-    def __init__(self, outcome, presentation):
-        super().__init__(outcome, presentation)
+    def __init__(self, outcome, definition):
+        super().__init__(outcome, definition)
         self.figure, self.words = SweepFigure(), words()
         self.field = pn.widgets.Select(
             label="Against",
@@ -134,7 +134,7 @@ class Resonances(Subject):
             stylesheets=[theme.SELECT_CSS],
         )
         self.field.param.watch(self._follow, "value")
-        outcome.param.watch(self._point, "picture")
+        outcome.param.watch(self._point, "summary")
         self._follow()
 
     def ask(self, design):
@@ -151,15 +151,15 @@ class Resonances(Subject):
         self._point()
 
     def _point(self, *_):
-        picture, answer = self.outcome.picture, self.question.answer
-        if picture is None or answer is None:
+        summary, answer = self.outcome.summary, self.question.answer
+        if summary is None or answer is None:
             return
-        name, natural = answer.sweep.field, picture.solution.natural_frequencies
-        if getattr(picture.design, name) is None:
+        name, natural = answer.sweep.field, summary.solution.natural_frequencies
+        if getattr(summary.design, name) is None:
             return
         both = (natural.loaded_track, natural.coupled_block)
         self.figure.point(
-            to_display(name, getattr(picture.design, name)), [each for each in both if each is not None]
+            to_display(name, getattr(summary.design, name)), [each for each in both if each is not None]
         )
 
     def __panel__(self):
@@ -182,8 +182,8 @@ class Slopes(Subject):
 
     title = "Slopes"
 
-    def __init__(self, outcome, presentation):
-        super().__init__(outcome, presentation)
+    def __init__(self, outcome, definition):
+        super().__init__(outcome, definition)
         self.figure, self.words = SlopesFigure(), words()
         self.toggle = pmui.Switch(label="Draw the asymptotes", value=True, margin=(0, 12))
         self.toggle.param.watch(lambda event: self.figure.show_asymptotes(event.new), "value")
@@ -192,11 +192,11 @@ class Slopes(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.slopes, design, *self.definition
+        return explanations.slopes, design, *self.gain_arguments
 
     def show(self, answer):
         """Draw curves and asymptotes."""
-        self.figure.name_axis(gain_axis(self.presentation))
+        self.figure.name_axis(gain_axis(self.definition))
         levels = {"level": answer.levels}
         if answer.one_stage_levels is not None:
             levels["one_stage"] = answer.one_stage_levels
@@ -252,8 +252,8 @@ class Damping(Subject):
         )
     )
 
-    def __init__(self, outcome, presentation):
-        super().__init__(outcome, presentation)
+    def __init__(self, outcome, definition):
+        super().__init__(outcome, definition)
         self.stiffness = DampingFigure("taught_stiffness", "Stiffness over that at 50 Hz", "top_left")
         self.loss_factor = DampingFigure("taught_loss_factor", "Loss factor", "bottom_left")
         self.gain = BandsFigure("gain_by_loss", self.CURVES)
@@ -262,7 +262,7 @@ class Damping(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.damping, design, *self.definition
+        return explanations.damping, design, *self.gain_arguments
 
     def show(self, answer):
         """Draw the laws and what they do."""
@@ -271,7 +271,7 @@ class Damping(Subject):
             drawn = dict.fromkeys(("pad", "boot", "pad_stated", "boot_stated"), explanations.NOT_THERE)
             drawn |= {part: getattr(curve, of) for part, curve in curves.items() if curve is not None}
             figure.show(explanations.DAMPED, **drawn)
-        self.gain.name_axis(gain_axis(self.presentation))
+        self.gain.name_axis(gain_axis(self.definition))
         self.gain.show(**{curve.column: row for curve, row in zip(self.CURVES, answer.levels, strict=True)})
         say(self.words, answer.words)
 
@@ -304,8 +304,8 @@ class Definitions(Subject):
         Curve("real", "very stiff, contact spring as it is", theme.SPECIFICATION, [7, 3]),
     )
 
-    def __init__(self, outcome, presentation):
-        super().__init__(outcome, presentation)
+    def __init__(self, outcome, definition):
+        super().__init__(outcome, definition)
         self.four = BandsFigure("definitions", self.FOUR)
         self.references = StiffReferenceFigure()
         self.against = BandsFigure("against_stiff", self.AGAINST, "Insertion gain, dB (summed energy)")
@@ -339,23 +339,23 @@ class Definitions(Subject):
         )
 
 
-class Ladder(Subject):
+class LumpedVsBeam(Subject):
     """The one-dimensional chain beside the beam, and where it will do."""
 
-    title = "Ladder"
+    title = "Lumped vs beam"
 
-    def __init__(self, outcome, presentation):
-        super().__init__(outcome, presentation)
-        self.figure, self.words = LadderFigure(), words()
+    def __init__(self, outcome, definition):
+        super().__init__(outcome, definition)
+        self.figure, self.words = LumpedVsBeamFigure(), words()
         self._follow()
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.ladder, design, *self.definition
+        return explanations.lumped_vs_beam, design, *self.gain_arguments
 
     def show(self, answer):
         """Draw both, and shade where they agree."""
-        self.figure.name_axis(gain_axis(self.presentation))
+        self.figure.name_axis(gain_axis(self.definition))
         self.figure.show_comparison(answer.comparison)
         say(self.words, answer.words)
 

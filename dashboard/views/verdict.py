@@ -19,19 +19,19 @@ class ShortVerdict(Viewer):
 
     Parameters
     ----------
-    workshop : Workshop
+    assessment : Assessment
         What is told.
     """
 
-    def __init__(self, workshop):
+    def __init__(self, assessment):
         super().__init__()
-        self._workshop = workshop
+        self._assessment = assessment
         self.pane = pn.pane.HTML("", stylesheets=[theme.VERDICT_CSS], margin=(0, 12, 2, 12))
-        workshop.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, "assessed")
         self._show()
 
     def _show(self, *_):
-        there = self._workshop.assessed
+        there = self._assessment.assessed
         verdict = there[0].verdict if there else None
         self.pane.object = "" if verdict is None else f'<p class="short">{badge(verdict)}</p>'
 

@@ -42,15 +42,15 @@ class Verify(Viewer):
     ----------
     outcome : Outcome
         Whose checked picture is shown.
-    presentation : Presentation
+    definition : GainDefinition
         How its insertion gain is reckoned.
     """
 
     title = "Verify"
 
-    def __init__(self, outcome, presentation):
+    def __init__(self, outcome, definition):
         super().__init__()
-        self._outcome, self._presentation = outcome, presentation
+        self._outcome, self._definition = outcome, definition
         self.comparison = ComparisonFigure()
         self.difference = DifferenceFigure(self.comparison.bands)
         self.receptance = ReceptanceFigure()
@@ -80,39 +80,39 @@ class Verify(Viewer):
             stylesheets=[theme.SELECT_CSS],
         )
         self.peer.param.watch(self._show_peer, "value")
-        outcome.param.watch(self._show, "checked")
-        presentation.param.watch(self._show_run, ["reference", "summation"])
-        outcome.param.watch(self._dim, ["checked", "problem", "progress"])
+        outcome.param.watch(self._show, "verified")
+        definition.param.watch(self._show_run, ["reference", "summation"])
+        outcome.param.watch(self._dim, ["verified", "problem", "progress"])
         self._show_peer()
         self._show()
 
     def _show(self, *_):
         self._show_run()
-        checked = self._outcome.checked
-        if checked is None or checked.theory is None:
+        verified = self._outcome.verified
+        if verified is None or verified.theory is None:
             return
-        self._show_convergence(checked)
-        self._show_damping(checked.picture.solution)
+        self._show_convergence(verified)
+        self._show_damping(verified.summary.solution)
 
     def _dim(self, *_):
-        checked = self._outcome.checked
-        stale = self._outcome.stale or (checked is not None and checked.theory is None)
+        verified = self._outcome.verified
+        stale = self._outcome.stale or (verified is not None and verified.theory is None)
         for pane in self.panes:
             pane.styles = theme.STALE if stale else theme.FRESH
 
     def _show_run(self, *_):
-        checked, chosen = self._outcome.checked, self._presentation
+        verified, chosen = self._outcome.verified, self._definition
         self.comparison.name_axis(gain_axis(chosen))
-        if checked is None:
+        if verified is None:
             self.words["run"].object = "Not checked yet."
             return
-        if checked.theory is None:
-            self.words["run"].object = checked.problem
+        if verified.theory is None:
+            self.words["run"].object = verified.problem
             return
-        solution = checked.picture.solution
+        solution = verified.summary.solution
         run, exact, scheme = (
             chosen.levels(solution, spectrum)
-            for spectrum in (None, checked.theory.exact, checked.theory.scheme)
+            for spectrum in (None, verified.theory.exact, verified.theory.scheme)
         )
         self.comparison.show(run, exact)
         self.difference.show(run - exact)
@@ -144,8 +144,8 @@ class Verify(Viewer):
             "out, and the ground is rigid for both."
         )
 
-    def _show_convergence(self, checked):
-        theory, solution = checked.theory, checked.picture.solution
+    def _show_convergence(self, verified):
+        theory, solution = verified.theory, verified.summary.solution
         grid = solution.grid
         self.time_step.show(theory, grid.dt)
         self.element.show(theory, solution.design.fastener_spacing, grid.dx)

@@ -15,11 +15,11 @@ from bokeh.document import Document
 from bokeh.protocol import Protocol
 
 import trackig_core as tig
-from dashboard.compute.pinned import PinnedPictures
-from dashboard.compute.workers import MOVING, shared_store, take_picture
-from dashboard.session.assessment import Workshop
+from dashboard.compute.pinned import PinnedSummaries
+from dashboard.compute.workers import MOVING, shared_store, solve_summary
+from dashboard.session.assessment import Assessment
 from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import Presentation
+from dashboard.session.inputs import GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.explore import Explore
@@ -49,19 +49,19 @@ WATCH = """input => {
 
 
 def picture_of(design, fidelity):
-    return take_picture((design, fidelity), lambda *_: None, lambda: False)
+    return solve_summary((design, fidelity), lambda *_: None, lambda: False)
 
 
 def test_a_frame_on_the_server(benchmark, tell):
     """From a new picture to the message for the browser: figures patched, words changed, serialised."""
-    outcome, presentation, pins = Outcome(), Presentation(), Pins()
-    pinned = PinnedPictures(pins, shared_store())
-    curves = PinnedCurves(pins, pinned, presentation)
-    workshop = Workshop(outcome, presentation, pins, pinned, curves)
-    views = [Status(outcome, None, None), Explore(outcome, presentation, pins, curves, workshop)]
+    outcome, definition, pins = Outcome(), GainDefinition(), Pins()
+    pinned = PinnedSummaries(pins, shared_store())
+    curves = PinnedCurves(pins, pinned, definition)
+    assessment = Assessment(outcome, definition, pins, pinned, curves)
+    views = [Status(outcome, None, None), Explore(outcome, definition, pins, curves, assessment)]
     document = Document()
     pn.Column(*views).server_doc(document, location=False)
-    pictures = [picture_of(OPENING.replace(boot_stiffness=20e6 + 1e5 * k), MOVING) for k in range(20)]
+    summaries = [picture_of(OPENING.replace(boot_stiffness=20e6 + 1e5 * k), MOVING) for k in range(20)]
     events, number = [], 0
     document.on_change(events.append)
 
@@ -69,7 +69,7 @@ def test_a_frame_on_the_server(benchmark, tell):
         nonlocal number
         events.clear()
         number += 1
-        outcome.picture = pictures[number % len(pictures)]
+        outcome.summary = summaries[number % len(summaries)]
         Protocol().create("PATCH-DOC", events)
 
     benchmark(frame)

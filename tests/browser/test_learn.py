@@ -176,7 +176,7 @@ def test_lessons_leave_the_sliders_to_the_hand(dashboard):
         ("Slopes", "The damped chain has"),
         ("Damping", "No material can lose energy"),
         ("Definitions", "The two sums are farthest apart"),
-        ("Ladder", "It is within 3 dB of the beam"),
+        ("Lumped vs beam", "It is within 3 dB of the beam"),
     ],
 )
 @pytest.mark.parametrize("width", [1024, 1920])

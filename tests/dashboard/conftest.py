@@ -10,30 +10,30 @@ import pytest
 
 import trackig_core as tig
 from dashboard.compute.store import SolutionStore
-from dashboard.compute.workers import AT_REST, take_picture
-from dashboard.persistence.snapshot import Keeping
-from dashboard.session.assessment import Workshop
+from dashboard.compute.workers import AT_REST, solve_summary
+from dashboard.persistence.snapshot import SessionSnapshot
+from dashboard.session.assessment import Assessment
 from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import DesignInputs, Presentation, preset_values
+from dashboard.session.inputs import DesignInputs, GainDefinition, preset_values
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 
 
 @cache
-def _picture(preset):
-    return take_picture((tig.PRESETS[preset], AT_REST), lambda *_: None, lambda: False)
+def _summary(preset):
+    return solve_summary((tig.PRESETS[preset], AT_REST), lambda *_: None, lambda: False)
 
 
 @pytest.fixture
-def picture():
+def summary():
     """Return the picture of a preset by name."""
-    return _picture
+    return _summary
 
 
 @pytest.fixture
-def fake_picture(picture):
+def fake_picture(summary):
     """Return a function that makes a picture of any design without solving it."""
-    real = picture("booted-block-low-mass")
+    real = summary("booted-block-low-mass")
 
     def fake(design, notes=(), fidelity=AT_REST):
         solution = dataclasses.replace(real.solution, design=design, notes=notes, fidelity=fidelity)
@@ -45,13 +45,13 @@ def fake_picture(picture):
 class Pictures(param.Parameterized):
     """Pictures of pins, put there by a test."""
 
-    pictures = param.Dict(default={})
+    summaries = param.Dict(default={})
 
 
 @pytest.fixture
 def make_pictures():
     """Return a function that makes pictures of pins, by their keys, that nobody solves."""
-    return lambda **pictures: Pictures(**pictures)
+    return lambda **summaries: Pictures(**summaries)
 
 
 @pytest.fixture
@@ -75,32 +75,32 @@ def instant_store(make_store, fake_picture):
 
 
 @pytest.fixture
-def session(picture):
+def session(summary):
     """Return the state of a session: its plain parts, with pictures that a test puts there."""
-    return Session(picture)
+    return Session(summary)
 
 
 class Session:
     """All plain parts of a session, put together as the page does."""
 
-    def __init__(self, picture):
-        self._picture = picture
-        self.inputs, self.outcome, self.presentation = DesignInputs(), Outcome(), Presentation()
+    def __init__(self, summary):
+        self._summary = summary
+        self.inputs, self.outcome, self.definition = DesignInputs(), Outcome(), GainDefinition()
         self.pins, self.pinned = Pins(), Pictures()
-        curves = PinnedCurves(self.pins, self.pinned, self.presentation)
-        self.workshop = Workshop(self.outcome, self.presentation, self.pins, self.pinned, curves)
+        curves = PinnedCurves(self.pins, self.pinned, self.definition)
+        self.assessment = Assessment(self.outcome, self.definition, self.pins, self.pinned, curves)
         tabs = ("explore", "specification", "level", "keep")
-        self.keeping = Keeping(self.inputs, self.presentation, self.pins, self.workshop, tabs)
+        self.snapshot = SessionSnapshot(self.inputs, self.definition, self.pins, self.assessment, tabs)
 
     def show(self, preset):
         """Put a preset on the screen, solved."""
         self.inputs.preset = preset
-        self.outcome.picture = self._picture(preset)
+        self.outcome.summary = self._summary(preset)
 
     def pin(self, preset, name=""):
         """Pin a preset, solved, and return the pin."""
         pin = self.pins.add(preset_values(preset), name)
-        self.pinned.pictures = {**self.pinned.pictures, pin.key: self._picture(preset)}
+        self.pinned.summaries = {**self.pinned.summaries, pin.key: self._summary(preset)}
         return pin
 
 

@@ -26,11 +26,11 @@ def store(instant_store):
     return instant_store
 
 
-def test_the_page_opens_already_solved(store, picture):
+def test_the_page_opens_already_solved(store, summary):
     document = Document()
     app.build(store).server_doc(document, location=False)
     source = document.get_model_by_name("insertion_gain")
-    expected = picture("booted-block-low-mass").solution.insertion_gain
+    expected = summary("booted-block-low-mass").solution.insertion_gain
     np.testing.assert_array_equal(source.data["level"], expected)
     assert document.get_model_by_name("force").data["time"].size > 1000
 
@@ -84,7 +84,7 @@ class FakeStore:
 
 def test_a_reader_who_leaves_is_no_error_and_all_else_is_logged(caplog):
     async def fail(error):
-        asyncio.get_running_loop().set_exception_handler(app_hooks.heed)
+        asyncio.get_running_loop().set_exception_handler(app_hooks.handle_message)
         asyncio.get_running_loop().call_exception_handler({"message": "a task failed", "exception": error})
 
     asyncio.run(fail(WebSocketClosedError()))

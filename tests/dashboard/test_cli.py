@@ -52,11 +52,11 @@ def test_solve_prints_what_the_core_finds(capsys):
     assert f"loaded track    {solution.natural_frequencies.loaded_track:.1f} Hz" in text
 
 
-def test_solve_is_the_papers_unless_told_otherwise(capsys, picture):
+def test_solve_is_the_papers_unless_told_otherwise(capsys, summary):
     assert main(["solve", "booted-block-low-mass"]) == 0
     text = capsys.readouterr().out
     np.testing.assert_allclose(
-        bands(text), picture("booted-block-low-mass").solution.insertion_gain, atol=0.0501
+        bands(text), summary("booted-block-low-mass").solution.insertion_gain, atol=0.0501
     )
     assert "fidelity paper, reference line, summation energy" in text
 
@@ -157,11 +157,11 @@ def test_check_takes_a_specification_from_a_file(save, tmp_path, capsys):
 def test_a_report_is_written(save, tmp_path, capsys):
     out = tmp_path / "out.html"
     pinned = [tig.PinnedDesign("<b>Softer</b>", BLOCK.replace(boot_stiffness=20e6), shown=False)]
-    path = save(specification=CEILING, pinned=pinned, view=tig.View(base=0), name="Workshop")
+    path = save(specification=CEILING, pinned=pinned, view=tig.View(base=0), name="Assessment")
     assert main(["report", path, str(out), "--fidelity", "exact"]) == 0
     text = out.read_text(encoding="utf-8")
     assert text.startswith("<!DOCTYPE html>")
-    assert "<h1>Workshop</h1>" in text
+    assert "<h1>Assessment</h1>" in text
     assert tig.__version__ in text
     assert capsys.readouterr().out.strip() == str(out)
 

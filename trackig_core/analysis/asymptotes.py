@@ -28,7 +28,7 @@ import numpy as np
 from trackig_core.analysis.lumped import energy_share, lumped_frequencies, lumped_spectrum
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, LINE_FRACTION, decibels
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
-from trackig_core.frequency_domain.refinement import refuse_if_unbounded
+from trackig_core.frequency_domain.refinement import require_damping
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, summed_energy
 from trackig_core.track.design import DEFAULT_STEP
 
@@ -148,7 +148,7 @@ def measured_slopes(design, summation="energy"):
     ValueError
         If ``summation`` is not one of the choices.
     """
-    refuse_if_unbounded(design)
+    require_damping(design)
     lines = gain_asymptotes(design, summation=summation)
     return tuple(
         MeasuredSlope(

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from trackig_core.frequency_domain.natural_frequencies import loaded_track
-from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
 from trackig_core.levels.insertion_gain import insertion_gain
 from trackig_core.track.design import REFERENCE_FREQUENCY
 from trackig_core.track.viscoelastic_law import laws
@@ -123,7 +123,7 @@ def gain_by_loss_factor(design, loss_factors=LOSS_FACTORS, reference="line", sum
     rows = []
     for loss_factor in loss_factors:
         changed = with_loss_factor(design, loss_factor)
-        refuse_if_unbounded(changed)
+        require_damping(changed)
         loaded = loaded_track(changed)
         rows.append(
             insertion_gain(banded_spectrum(changed, loaded), changed, loaded, reference, summation).levels

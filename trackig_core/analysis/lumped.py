@@ -30,12 +30,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from trackig_core.frequency_domain.natural_frequencies import chain_pair, consistent, loaded_track
+from trackig_core.frequency_domain.natural_frequencies import consistent, coupled_pair, loaded_track
 from trackig_core.frequency_domain.refinement import (
     band_frequencies,
     banded_spectrum,
     refined_spectrum,
-    refuse_if_unbounded,
+    require_damping,
 )
 from trackig_core.levels.insertion_gain import insertion_gain
 from trackig_core.results import ForceSpectrum
@@ -151,7 +151,7 @@ def lumped_frequencies(design):
     def coupled(stiffnesses, which):
         k_pad, k_boot = stiffnesses
         upper = _upper(design, supports, k_pad)
-        return chain_pair(upper, supports * k_boot, design.wheel_mass, supports * design.block_mass)[which]
+        return coupled_pair(upper, supports * k_boot, design.wheel_mass, supports * design.block_mass)[which]
 
     alone = consistent(wheel, (pad,))
     if boot is None:
@@ -226,7 +226,7 @@ def lumped_insertion_gain(design, reference="line", summation="energy"):
     ValueError
         If ``reference`` or ``summation`` is not one of the choices.
     """
-    refuse_if_unbounded(design)
+    require_damping(design)
     lowest = lumped_frequencies(design).coupled[0]
     spectrum = refined_spectrum(lambda between: lumped_spectrum(design, between), band_frequencies(lowest))
     return insertion_gain(spectrum, design, lowest, reference, summation)

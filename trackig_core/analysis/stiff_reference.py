@@ -17,7 +17,7 @@ import numpy as np
 from trackig_core.bands import BAND_EDGES, decibels
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
 from trackig_core.frequency_domain.natural_frequencies import loaded_track
-from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
 from trackig_core.levels.insertion_gain import integrate_bands
 from trackig_core.track.design import DEFAULT_STEP
 
@@ -98,7 +98,7 @@ def stiff_references(design, frequency):
     DesignError
         If the design's exact answer has no bound, for want of any loss.
     """
-    refuse_if_unbounded(design)
+    require_damping(design)
     resonance = float(np.sqrt(design.contact_stiffness / design.wheel_mass) / (2 * np.pi))
     frequency = np.union1d(np.asarray(frequency, dtype=float), resonance)
     rigid = (2 * np.pi * frequency * design.wheel_mass * DEFAULT_STEP) ** 2

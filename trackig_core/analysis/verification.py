@@ -13,7 +13,7 @@ import numpy as np
 
 from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
 from trackig_core.frequency_domain.floquet_waves import Lattice, exact_spectrum
-from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
 from trackig_core.results import ForceSpectrum, Solution
 from trackig_core.time_domain.grid import stable_time_step
 
@@ -82,7 +82,7 @@ def verify(solution):
         raise ValueError(
             f"a solution of fidelity {solution.fidelity!r} was not stepped in time: give one that was"
         )
-    refuse_if_unbounded(design)
+    require_damping(design)
     lattice = Lattice(grid.elements_per_bay, grid.bays, grid.dt)
     time_steps = grid.dt * FACTORS
     time_steps = time_steps[time_steps < stable_time_step(design, grid.dx)]

@@ -11,7 +11,7 @@ import numpy as np
 
 from trackig_core.frequency_domain.floquet_waves import INFINITE, Lattice
 from trackig_core.frequency_domain.natural_frequencies import loaded_track
-from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
 from trackig_core.levels.insertion_gain import insertion_gain
 
 FINEST_ELEMENTS = 96
@@ -40,7 +40,7 @@ def time_step_errors(design, time_steps, memory_order):
     DesignError
         If the exact answer has no bound, for want of any loss.
     """
-    refuse_if_unbounded(design)
+    require_damping(design)
     lattices = [Lattice(time_step=step, memory_order=memory_order) for step in time_steps]
     return _errors(design, lattices, INFINITE)
 
@@ -65,7 +65,7 @@ def element_errors(design, elements_per_bay):
     DesignError
         If the exact answer has no bound, for want of any loss.
     """
-    refuse_if_unbounded(design)
+    require_damping(design)
     lattices = [Lattice(elements_per_bay=number) for number in elements_per_bay]
     return _errors(design, lattices, Lattice(elements_per_bay=FINEST_ELEMENTS))
 

@@ -109,12 +109,12 @@ def cut_on(design):
         return (_oscillator(rail_mass, pad),)
 
     def natural(stiffnesses, which):
-        return chain_pair(*stiffnesses, rail_mass, design.block_mass)[which]
+        return coupled_pair(*stiffnesses, rail_mass, design.block_mass)[which]
 
     return tuple(consistent(lambda k, which=which: natural(k, which), (pad, boot)) for which in (0, 1))
 
 
-def chain_pair(upper_stiffness, lower_stiffness, upper_mass, lower_mass):
+def coupled_pair(upper_stiffness, lower_stiffness, upper_mass, lower_mass):
     """Return the natural frequencies of two masses in a chain: mass, spring, mass, spring, ground.
 
     Parameters

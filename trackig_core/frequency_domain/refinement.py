@@ -95,7 +95,7 @@ def _too_wide(intervals):
     return intervals > WIDEST_STEP * neighbour
 
 
-def refuse_if_unbounded(design):
+def require_damping(design):
     """Raise a DesignError if a design has no exact spectrum.
 
     With a loss-free spring on the ground there is a frequency at which waves never die along the track.

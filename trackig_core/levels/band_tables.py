@@ -195,8 +195,8 @@ def _checked(rows, quantity, counted):
         band = _band(frequency)
         if band is None:
             raise quantity.error(_unknown_band(frequency), line, 1, counted)
-        checked = _number(level)
-        if checked is None or not quantity.low <= checked <= quantity.high:
+        verified = _number(level)
+        if verified is None or not quantity.low <= verified <= quantity.high:
             message = f"{quantity.column} = {brief(level)}: give {quantity.allowed}"
             raise quantity.error(message, line, 2, counted)
         if band in found:
@@ -205,7 +205,7 @@ def _checked(rows, quantity, counted):
                 "give each band once"
             )
             raise quantity.error(message, line, 1, counted)
-        found[band] = line, checked
+        found[band] = line, verified
     if not found:
         raise quantity.error(f"no band has a value: give at least one row of {FREQUENCY_COLUMN} and level")
     return tuple((NOMINAL[band], found[band][1]) for band in sorted(found))

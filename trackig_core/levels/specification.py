@@ -14,7 +14,7 @@ import numpy as np
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 from trackig_core.levels.band_tables import BandTable, BandTableError, Quantity
 
-TOLD_APART = 1e-6
+LEVEL_TOLERANCE = 1e-6
 """Margin below which a level is taken to lie on its limit [dB]: floating-point arithmetic leaves as much."""
 
 
@@ -71,7 +71,7 @@ class Specification(BandTable):
         if levels.shape != BAND_CENTRES.shape or not np.isfinite(levels).all():
             raise ValueError(f"give {BAND_CENTRES.size} finite levels, one per band")
         margins = self.levels - levels
-        margins[np.abs(margins) < TOLD_APART] = 0.0
+        margins[np.abs(margins) < LEVEL_TOLERANCE] = 0.0
         margins.flags.writeable = False
         return Verdict(margins)
 

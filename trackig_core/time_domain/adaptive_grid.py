@@ -17,7 +17,7 @@ from scipy.fft import rfft
 
 from trackig_core.bands import BAND_EDGES
 from trackig_core.frequency_domain.floquet_waves import INFINITE, Lattice, waves
-from trackig_core.frequency_domain.refinement import banded_spectrum, refuse_if_unbounded
+from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
 from trackig_core.levels.insertion_gain import insertion_gain
 from trackig_core.time_domain.decimation import RECORD_RATE
 from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid, stable_time_step
@@ -106,7 +106,7 @@ def plan(design, loaded_track):
     RunTooLargeError
         If the run would need more than 2 GB or 60 s.
     """
-    refuse_if_unbounded(design)
+    require_damping(design)
 
     def levels(lattice):
         return insertion_gain(banded_spectrum(design, loaded_track, lattice), design, loaded_track).levels

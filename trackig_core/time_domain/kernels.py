@@ -107,15 +107,15 @@ def advance(
     for kept in range(record.shape[0]):
         for _ in range(factor):
             row = window[count % window.shape[0]]
-            reflect(rail, mirrors)
-            probe(row, rail, supports, wheel, rail_probes, block_probes)
+            fill_ghosts(rail, mirrors)
+            record_displacements(row, rail, supports, wheel, rail_probes, block_probes)
             if two_stage:
-                push_blocks(
+                step_two_stage(
                     rail_rows, velocity_rows, supports, row, time_step, element_mass, block_mass,
                     pad_stiffness, pad_decay, pad_gain, boot_stiffness, boot_decay, boot_gain,
                 )  # fmt: skip
             else:
-                push_ground(
+                step_single_stage(
                     rail_rows, velocity_rows, supports, row, time_step, element_mass,
                     pad_stiffness, pad_decay, pad_gain,
                 )  # fmt: skip
@@ -123,13 +123,13 @@ def advance(
             wheel[1] -= time_step * contact / wheel_mass
             wheel[0] += time_step * wheel[1]
             rail_velocity[0] += time_step * contact / element_mass
-            bend(rail, rail_velocity, bending, time_step)
+            step_rail(rail, rail_velocity, bending, time_step)
             count += 1
-        weigh(window, count - 1, taps, record[kept])
+        apply_fir(window, count - 1, taps, record[kept])
 
 
 @njit(nogil=True, cache=True, inline="always")
-def reflect(rail, mirrors):
+def fill_ghosts(rail, mirrors):
     """Fill the ghosts: with the next stretch's elements, and with mirror images at both ends.
 
     Parameters
@@ -148,7 +148,7 @@ def reflect(rail, mirrors):
 
 
 @njit(nogil=True, cache=True, inline="always")
-def probe(row, rail, supports, wheel, rail_probes, block_probes):
+def record_displacements(row, rail, supports, wheel, rail_probes, block_probes):
     """Note the displacements that are recorded, behind the forces of a row.
 
     Parameters
@@ -167,7 +167,7 @@ def probe(row, rail, supports, wheel, rail_probes, block_probes):
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def answer(memory, place, strain, stiffness, keep0, keep1, keep2, feed0, feed1, feed2):
+def viscoelastic_force(memory, place, strain, stiffness, keep0, keep1, keep2, feed0, feed1, feed2):
     """Return the force of a spring with three memory terms [N], and let the terms take up its strain.
 
     Parameters
@@ -189,7 +189,7 @@ def answer(memory, place, strain, stiffness, keep0, keep1, keep2, feed0, feed1, 
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def push_blocks(
+def step_two_stage(
     rail_rows,
     velocity_rows,
     supports,
@@ -230,8 +230,10 @@ pad_gain, boot_stiffness, boot_decay, boot_gain
         force = row[bay * LANES : (bay + 1) * LANES]
         for lane in range(LANES):
             block = here[lane]
-            pad = answer(here, 2 * LANES + lane, above[lane] - block, pad_stiffness, p0, p1, p2, q0, q1, q2)
-            boot = answer(here, 5 * LANES + lane, block, boot_stiffness, b0, b1, b2, c0, c1, c2)
+            pad = viscoelastic_force(
+                here, 2 * LANES + lane, above[lane] - block, pad_stiffness, p0, p1, p2, q0, q1, q2
+            )
+            boot = viscoelastic_force(here, 5 * LANES + lane, block, boot_stiffness, b0, b1, b2, c0, c1, c2)
             force[lane] = boot
             velocity[lane] -= per_element * pad
             block_velocity = here[LANES + lane] + per_block * (pad - boot)
@@ -240,7 +242,7 @@ pad_gain, boot_stiffness, boot_decay, boot_gain
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def push_ground(
+def step_single_stage(
     rail_rows, velocity_rows, supports, row, time_step, element_mass, pad_stiffness, pad_decay, pad_gain
 ):
     """Let pads push rail and ground.
@@ -265,13 +267,15 @@ def push_ground(
         velocity = velocity_rows[bay * step]
         force = row[bay * LANES : (bay + 1) * LANES]
         for lane in range(LANES):
-            pad = answer(here, 2 * LANES + lane, above[lane], pad_stiffness, p0, p1, p2, q0, q1, q2)
+            pad = viscoelastic_force(
+                here, 2 * LANES + lane, above[lane], pad_stiffness, p0, p1, p2, q0, q1, q2
+            )
             force[lane] = pad
             velocity[lane] -= per_element * pad
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def bend(rail, rail_velocity, bending, time_step):
+def step_rail(rail, rail_velocity, bending, time_step):
     """Let the rail straighten itself, and move it.
 
     Parameters
@@ -291,7 +295,7 @@ def bend(rail, rail_velocity, bending, time_step):
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def weigh(window, newest, taps, kept):
+def apply_fir(window, newest, taps, kept):
     """Sum the rows of a window, weighed by a filter.
 
     Parameters

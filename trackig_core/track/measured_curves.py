@@ -120,20 +120,20 @@ def _checked(points, columns):
         raise MeasurementError(f"give rows of {', '.join(columns)}") from None
     if not 2 <= len(rows) <= MOST_POINTS:
         raise MeasurementError(f"{len(rows)} rows: give from 2 to {MOST_POINTS} rows of {', '.join(columns)}")
-    checked = []
+    verified = []
     for number, row in enumerate(rows, start=1):
         if len(row) != len(columns):
             raise MeasurementError(f"{len(row)} values: give {', '.join(columns)}", number)
         values = tuple(_number(*pair, number) for pair in zip(columns, row, strict=True))
-        if checked and values[0] <= checked[-1][0]:
-            before = checked[-1][0]
+        if verified and values[0] <= verified[-1][0]:
+            before = verified[-1][0]
             raise MeasurementError(
                 f"frequency {values[0]:g} Hz is not above the {before:g} Hz of row {number - 1}: "
                 "sort the rows by frequency, and give each frequency once",
                 number,
             )
-        checked.append(values)
-    return tuple(checked)
+        verified.append(values)
+    return tuple(verified)
 
 
 def _number(column, value, row):

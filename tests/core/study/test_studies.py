@@ -26,7 +26,7 @@ STUDY = tig.Study(
     tig.Specification([(8, 12.5), (31.5, -3.0)], name="Client"),
     tig.SourceSpectrum([(31.5, 70.0), (63, 65.0)], name="Metro"),
     tig.View(summation="coherent", reference="rigid", base=1),
-    name="Workshop",
+    name="Assessment",
 )
 FILE = STUDY.to_toml()
 
@@ -134,7 +134,7 @@ def test_numbers_read_as_engineers_write_them():
         FILE.replace("\n", "\r\n"),
         FILE.replace("100e6", "100_000_000"),
         "# " + "long" * 100 + "\n" + FILE,
-        FILE.replace('name = "Workshop"', "name = 'Workshop'"),
+        FILE.replace('name = "Assessment"', "name = 'Assessment'"),
     ],
 )
 def test_files_edited_by_hand_are_read(data):
@@ -206,7 +206,7 @@ def changed(old, new):
         (changed("mass_kg_per_m = 60.0", "mass_kg_per_m = 0.0"), "design.rail.mass_kg_per_m: 0.0"),
         (changed('name = "Slab"', 'name = "' + "x" * 41 + '"'), "pinned[0].name: "),
         (changed('name = "Slab"', 'name = "Slab "'), "pinned[0].name: "),
-        (changed('name = "Workshop"', 'name = "' + "x" * 61 + '"'), "name: "),
+        (changed('name = "Assessment"', 'name = "' + "x" * 61 + '"'), "name: "),
         (changed('name = "Slab"', 'name = "a\\nb"'), "pinned[0].name: "),
         (changed('name = "Slab"', 'name = "\\u202e"'), "pinned[0].name: "),
         (changed("colour = 3", "preset = 'slab'"), "pinned[0].preset: 'slab': give slab-track, booted-sl"),
@@ -220,8 +220,8 @@ def changed(old, new):
         (changed("[31.5, -3.0]", "[31.5, nan]"), "specification.ig_max_dB: row 2, column 2: "),
         (changed('name = "Client"', 'name = ""'), "specification: name = ''"),
         (changed("level_dB", "level"), "source.level_dB: it is missing"),
-        (changed('name = "Workshop"', "name = 5"), "name: 5: give a name"),
-        (changed('name = "Workshop"', 'name = "Workshop'), "this is not TOML: "),
+        (changed('name = "Assessment"', "name = 5"), "name: 5: give a name"),
+        (changed('name = "Assessment"', 'name = "Assessment'), "this is not TOML: "),
         (changed("[view]", "[view"), "(at line 7, column 6)"),
         (changed("[view]", "[view]\nsummation = 'energy'"), "this is not TOML: "),
         (changed("[view]", "[design]"), "this is not TOML: "),

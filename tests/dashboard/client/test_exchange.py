@@ -13,14 +13,14 @@ LIMITS = tig.Specification([(63, -3.0)])
 
 @pytest.fixture
 def exchange(session):
-    return Exchange(session.keeping)
+    return Exchange(session.snapshot)
 
 
-def heed(exchange, message):
+def handle_message(exchange, message):
     """Have a message heeded where changes are followed: in a loop, as a session has."""
 
     async def run():
-        exchange.heed(message)
+        exchange.handle_message(message)
 
     asyncio.run(run())
 
@@ -43,37 +43,37 @@ def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatc
     monkeypatch.setattr(exchange_module, "REST", 0.05)
 
     async def run():
-        exchange = Exchange(session.keeping)
-        assert exchange.kept == [session.keeping.query(), session.keeping.study().to_toml()]
+        exchange = Exchange(session.snapshot)
+        assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml()]
         noted = []
         exchange.param.watch(lambda event: noted.append(event.new), "kept")
         for stiffness in range(30, 40):
             session.inputs.boot_stiffness = stiffness
             await asyncio.sleep(0.005)
-        session.workshop.specification = LIMITS
+        session.assessment.specification = LIMITS
         assert noted == []
         await asyncio.sleep(0.3)
-        assert noted == [[session.keeping.query(), session.keeping.study().to_toml()]]
+        assert noted == [[session.snapshot.query(), session.snapshot.study().to_toml()]]
         assert "boot_stiffness=39" in noted[0][0]
 
     asyncio.run(run())
 
 
-def test_what_a_browser_remembers_is_restored(session, exchange, sent, picture):
-    other = type(session)(picture)
-    other.workshop.specification = LIMITS
+def test_what_a_browser_remembers_is_restored(session, exchange, sent, summary):
+    other = type(session)(summary)
+    other.assessment.specification = LIMITS
     other.pin("slab-track", "Slab")
-    heed(exchange, {"kind": "restore", "data": other.keeping.study().to_toml()})
-    assert session.workshop.specification == LIMITS
+    handle_message(exchange, {"kind": "restore", "data": other.snapshot.study().to_toml()})
+    assert session.assessment.specification == LIMITS
     assert [pin.name for pin in session.pins.pinned] == ["Slab"]
-    assert exchange.kept == [session.keeping.query(), session.keeping.study().to_toml()]
+    assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml()]
     assert sent == [{"kind": "keep"}]
 
 
 def test_a_memory_that_is_no_study_changes_nothing_and_is_told(session, exchange, sent, told):
-    before = session.keeping.study()
-    exchange.heed({"kind": "restore", "data": "<script>alert(1)</script>"})
-    assert session.keeping.study() == before
+    before = session.snapshot.study()
+    exchange.handle_message({"kind": "restore", "data": "<script>alert(1)</script>"})
+    assert session.snapshot.study() == before
     assert told == [("warning", exchange_module.NOT_RESTORED)]
     assert sent == [{"kind": "keep"}]
 
@@ -99,19 +99,19 @@ def test_a_memory_that_is_no_study_changes_nothing_and_is_told(session, exchange
 def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
     opened = []
     exchange.on_file("study", opened.append)
-    before = session.keeping.query()
-    exchange.heed(message)
-    assert (opened, sent, session.keeping.query()) == ([], [], before)
+    before = session.snapshot.query()
+    exchange.handle_message(message)
+    assert (opened, sent, session.snapshot.query()) == ([], [], before)
 
 
 def test_a_plot_in_another_tab_is_shown_and_left_again(session, exchange):
     tabs = []
-    session.keeping.param.watch(lambda event: tabs.append(event.new), "tab")
+    session.snapshot.param.watch(lambda event: tabs.append(event.new), "tab")
 
     async def run():
-        session.keeping.tab = "keep"
-        exchange.heed({"kind": "show", "data": "insertion_gain_figure"})
-        exchange.heed({"kind": "back"})
+        session.snapshot.tab = "keep"
+        exchange.handle_message({"kind": "show", "data": "insertion_gain_figure"})
+        exchange.handle_message({"kind": "back"})
 
     asyncio.run(run())
     assert tabs == ["keep", "explore", "keep"]

@@ -4,7 +4,7 @@ import pytest
 from bokeh.document import Document
 from panel.io.state import set_curdoc
 
-from dashboard.compute.document import Later
+from dashboard.compute.document import NextTick
 
 
 class Session:
@@ -24,13 +24,13 @@ def session(monkeypatch):
 
 def test_without_a_session_it_is_drawn_at_once():
     drawn = []
-    Later(lambda: drawn.append(True))()
+    NextTick(lambda: drawn.append(True))()
     assert drawn == [True]
 
 
 def test_several_changes_are_drawn_once_under_the_lock(session):
     drawn = []
-    later = Later(lambda: drawn.append(True))
+    later = NextTick(lambda: drawn.append(True))
     with set_curdoc(session.document):
         later()
         later()
@@ -48,6 +48,6 @@ def test_what_cannot_be_drawn_is_logged(session, caplog):
         raise ValueError("no paint")
 
     with set_curdoc(session.document):
-        Later(broken)()
+        NextTick(broken)()
     session.next.pop()()
     assert "no paint" in caplog.text

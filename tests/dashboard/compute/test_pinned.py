@@ -6,7 +6,7 @@ import threading
 import pytest
 
 import trackig_core as tig
-from dashboard.compute.pinned import PinnedPictures
+from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.workers import AT_REST
 from dashboard.session.inputs import preset_values
 from dashboard.session.pins import MOST, Pins
@@ -40,46 +40,46 @@ def pins():
 def test_what_the_store_knows_is_there_at_once(pins, make_store, fake_picture):
     store = make_store(lambda key, *_: fake_picture(key[0]))
     known = store.request((tig.PRESETS["slab-track"], AT_REST)).future.result(30)
-    pinned = PinnedPictures(pins, store)
+    pinned = PinnedSummaries(pins, store)
 
     async def pin():
         added = pins.add(preset_values("slab-track"))
-        assert pinned.pictures == {added.key: known}
+        assert pinned.summaries == {added.key: known}
 
     asyncio.run(pin())
 
 
 def test_what_is_not_known_is_solved_at_rest_and_told(pins, instant_store):
-    pinned, told = PinnedPictures(pins, instant_store), []
-    pinned.param.watch(lambda event: told.append(set(event.new)), "pictures")
+    pinned, told = PinnedSummaries(pins, instant_store), []
+    pinned.param.watch(lambda event: told.append(set(event.new)), "summaries")
     new = do(pins.add_all, [(varied(count), "") for count in range(MOST)])
-    assert {key: picture.design for key, picture in pinned.pictures.items()} == {
+    assert {key: summary.design for key, summary in pinned.summaries.items()} == {
         pin.key: pin.design for pin in new
     }
-    assert {picture.solution.fidelity for picture in pinned.pictures.values()} == {AT_REST}
+    assert {summary.solution.fidelity for summary in pinned.summaries.values()} == {AT_REST}
     assert told[-1] == {pin.key for pin in new}
 
 
 def test_pins_that_were_there_before_are_solved_too(pins, instant_store):
     pin = pins.add(varied(0))
-    assert set(do(PinnedPictures, pins, instant_store).pictures) == {pin.key}
+    assert set(do(PinnedSummaries, pins, instant_store).summaries) == {pin.key}
 
 
 def test_a_picture_goes_with_its_pin_and_stays_through_a_new_name(pins, instant_store):
-    pinned = PinnedPictures(pins, instant_store)
+    pinned = PinnedSummaries(pins, instant_store)
     one, other = do(pins.add_all, [(varied(0), "one"), (varied(1), "other")])
-    shown = pinned.pictures[one.key]
+    shown = pinned.summaries[one.key]
     do(pins.rename, one.key, "renamed")
-    assert pinned.pictures[one.key] is shown
+    assert pinned.summaries[one.key] is shown
     do(pins.remove, other.key)
-    assert set(pinned.pictures) == {one.key}
+    assert set(pinned.summaries) == {one.key}
 
 
 class Gate:
     """A solver that waits to be let on, and counts how many designs are solved at a time."""
 
-    def __init__(self, picture):
-        self.picture, self.open, self.given_up = picture, threading.Event(), threading.Event()
+    def __init__(self, summary):
+        self.summary, self.open, self.given_up = summary, threading.Event(), threading.Event()
         self.running = self.most = 0
 
     def __call__(self, key, _, cancelled):
@@ -90,7 +90,7 @@ class Gate:
                 self.given_up.set()
                 raise RuntimeError("nobody waits")
         self.running -= 1
-        return self.picture(key[0])
+        return self.summary(key[0])
 
 
 async def until(condition):
@@ -103,15 +103,15 @@ async def until(condition):
 
 def test_the_event_loop_goes_on_and_one_pin_is_solved_at_a_time(pins, make_store, fake_picture):
     gate = Gate(fake_picture)
-    pinned = PinnedPictures(pins, make_store(gate))
+    pinned = PinnedSummaries(pins, make_store(gate))
 
     async def story():
         pins.add_all([(varied(count), "") for count in range(3)])
         await until(lambda: gate.running)
         await asyncio.sleep(0.05)
-        assert pinned.pictures == {}
+        assert pinned.summaries == {}
         gate.open.set()
-        await until(lambda: len(pinned.pictures) == 3)
+        await until(lambda: len(pinned.summaries) == 3)
 
     asyncio.run(story())
     assert gate.most == 1
@@ -120,7 +120,7 @@ def test_the_event_loop_goes_on_and_one_pin_is_solved_at_a_time(pins, make_store
 @pytest.mark.parametrize("end", ["remove", "close"])
 def test_a_solve_that_nobody_waits_for_is_given_up(pins, make_store, fake_picture, end):
     gate = Gate(fake_picture)
-    pinned = PinnedPictures(pins, make_store(gate))
+    pinned = PinnedSummaries(pins, make_store(gate))
 
     async def story():
         pin = pins.add(varied(0))
@@ -129,7 +129,7 @@ def test_a_solve_that_nobody_waits_for_is_given_up(pins, make_store, fake_pictur
         await until(gate.given_up.is_set)
 
     asyncio.run(story())
-    assert pinned.pictures == {}
+    assert pinned.summaries == {}
     assert pinned.problems == {}
 
 
@@ -139,9 +139,9 @@ def test_a_design_that_cannot_be_solved_says_why_and_stops_none_of_the_others(pi
             raise tig.RunTooLargeError("the record is too long")
         return fake_picture(key[0])
 
-    pinned = PinnedPictures(pins, make_store(solve))
+    pinned = PinnedSummaries(pins, make_store(solve))
     refused, fine = do(pins.add_all, [(varied(0), ""), (varied(1), "")])
     assert "the record is too long" in pinned.problems[refused.key]
-    assert set(pinned.pictures) == {fine.key}
+    assert set(pinned.summaries) == {fine.key}
     do(pins.remove, refused.key)
     assert pinned.problems == {}

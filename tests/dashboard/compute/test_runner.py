@@ -11,7 +11,7 @@ import trackig_core as tig
 from dashboard.compute import runner as runner_module
 from dashboard.compute.latest import readable
 from dashboard.compute.runner import STOPPED, Runner
-from dashboard.compute.workers import AT_REST, MOVING, take_picture
+from dashboard.compute.workers import AT_REST, MOVING, solve_summary
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
 
@@ -51,7 +51,7 @@ class Gate:
     """A solver that holds back designs with the pad stiffness 500 kN/mm until they are let through."""
 
     def __init__(self, fake_picture, fidelity):
-        self._picture = fake_picture
+        self._summary = fake_picture
         self._fidelity = fidelity
         self.open = threading.Event()
         self.begun = threading.Event()
@@ -68,7 +68,7 @@ class Gate:
                     self.gave_up.append(design)
                     raise tig.SolveCancelled
         self.solved.append((design.pad_stiffness / 1e6, fidelity))
-        return self._picture(design, fidelity=fidelity)
+        return self._summary(design, fidelity=fidelity)
 
 
 @pytest.fixture
@@ -94,7 +94,7 @@ def shown_pictures(session):
     def note(event):
         shown.append((event.new.design.pad_stiffness / 1e6, event.new.solution.fidelity))
 
-    session.outcome.param.watch(note, "picture")
+    session.outcome.param.watch(note, "summary")
     return shown
 
 
@@ -105,18 +105,18 @@ async def until(condition):
             await asyncio.sleep(0.002)
 
 
-def test_a_picture_holds_what_solve_returns(picture):
+def test_a_picture_holds_what_solve_returns(summary):
     design = tig.PRESETS["slab-track"]
     solution = tig.solve(design, fidelity=AT_REST)
-    taken = picture("slab-track")
+    taken = summary("slab-track")
     np.testing.assert_array_equal(taken.solution.insertion_gain, solution.insertion_gain)
     np.testing.assert_allclose(1000 * taken.total_force, solution.total_force)
     np.testing.assert_allclose(1000 * taken.loaded_support_force, solution.loaded_support_force)
     assert taken.step == pytest.approx(0.1)
 
 
-def test_a_picture_leaves_the_large_record_behind(picture):
-    taken = picture("slab-track")
+def test_a_picture_leaves_the_large_record_behind(summary):
+    taken = summary("slab-track")
     assert taken.solution.history is None
     arrays = (taken.time, taken.loaded_support_force, taken.total_force)
     assert all(array.base is None for array in arrays), "a view would keep the whole record alive"
@@ -126,7 +126,7 @@ def test_progress_and_cancellation_reach_the_core():
     heard = []
     key = (tig.PRESETS["slab-track"], AT_REST)
     with pytest.raises(tig.SolveCancelled):
-        take_picture(key, heard.append, lambda: bool(heard))
+        solve_summary(key, heard.append, lambda: bool(heard))
     assert 0 < heard[0] < 1
 
 
@@ -135,21 +135,21 @@ def test_a_kept_picture_is_there_at_once(instant_store):
     instant_store.request((design, AT_REST)).future.result(WAIT)
     session = Session(instant_store)
     session.runner.start()
-    assert session.outcome.picture.design == design
+    assert session.outcome.summary.design == design
     assert session.outcome.from_cache
 
 
 def test_start_solves_what_is_not_kept(instant_store):
     session = Session(instant_store)
     session.do(session.runner.start)
-    assert session.outcome.picture.design == session.inputs.to_design()
+    assert session.outcome.summary.design == session.inputs.to_design()
     assert not session.outcome.from_cache
 
 
 def test_a_change_is_solved(instant_store):
     session = Session(instant_store)
     session.change(pad_stiffness=200)
-    assert session.outcome.picture.design.pad_stiffness == 200e6
+    assert session.outcome.summary.design.pad_stiffness == 200e6
     assert not session.outcome.busy
 
 
@@ -159,7 +159,7 @@ def test_going_back_comes_from_the_cache(instant_store):
     session.change(pad_stiffness=300)
     session.change(pad_stiffness=200)
     assert session.outcome.from_cache
-    assert session.outcome.picture.design.pad_stiffness == 200e6
+    assert session.outcome.summary.design.pad_stiffness == 200e6
 
 
 def test_a_change_is_followed_live_and_solved_as_in_the_paper_at_rest(instant_store):
@@ -180,7 +180,7 @@ def test_while_inputs_move_nothing_but_live_runs_are_solved(make_store, gate, mo
         for stiffness in range(300, 310):
             session.inputs.pad_stiffness = stiffness
             await asyncio.sleep(0.02)
-        await until(lambda: session.outcome.picture.solution.fidelity == AT_REST)
+        await until(lambda: session.outcome.summary.solution.fidelity == AT_REST)
 
     asyncio.run(drag())
     assert [fidelity for _, fidelity in shown] == [MOVING] * (len(shown) - 1) + [AT_REST]
@@ -201,7 +201,7 @@ def test_while_one_live_run_lasts_only_the_newest_change_waits(make_store, live_
             session.inputs.pad_stiffness = stiffness
             await asyncio.sleep(0)
         live_gate.open.set()
-        await until(lambda: session.outcome.picture.design.pad_stiffness == 519e6)
+        await until(lambda: session.outcome.summary.design.pad_stiffness == 519e6)
 
     asyncio.run(drag())
     assert [stiffness for stiffness, fidelity in live_gate.solved if fidelity == MOVING] == [500, 519]
@@ -259,7 +259,7 @@ def test_what_live_fidelity_refuses_is_left_for_the_paper_s(make_store, fake_pic
     session = Session(make_store(solve))
     session.do(session.runner.start)
     session.change(pad_stiffness=300)
-    assert session.outcome.picture.design.pad_stiffness == 300e6
+    assert session.outcome.summary.design.pad_stiffness == 300e6
     assert session.outcome.problem == ""
 
 
@@ -275,10 +275,10 @@ def test_following_waits_for_nobody_s_run_at_rest(make_store, gate):
     async def follow():
         await until(gate.begun.is_set)
         session.inputs.pad_stiffness = 200
-        await until(lambda: session.outcome.picture.design.pad_stiffness == 200e6)
-        assert session.outcome.picture.solution.fidelity == MOVING
+        await until(lambda: session.outcome.summary.design.pad_stiffness == 200e6)
+        assert session.outcome.summary.solution.fidelity == MOVING
         gate.open.set()
-        await until(lambda: session.outcome.picture.solution.fidelity == AT_REST)
+        await until(lambda: session.outcome.summary.solution.fidelity == AT_REST)
 
     asyncio.run(follow())
     store.release(job)
@@ -292,9 +292,9 @@ def test_while_the_solver_is_compiled_the_outcome_says_so(instant_store, monkeyp
     async def first_start():
         session.runner.start()
         await until(lambda: session.outcome.compiling)
-        assert session.outcome.picture is None
+        assert session.outcome.summary is None
         compiler.set_result(None)
-        await until(lambda: session.outcome.picture is not None)
+        await until(lambda: session.outcome.summary is not None)
 
     asyncio.run(first_start())
     assert not session.outcome.compiling
@@ -306,7 +306,7 @@ def test_a_compiler_that_fails_leaves_it_to_the_solve_to_say_so(instant_store, m
     monkeypatch.setattr(runner_module, "compiled", lambda: compiler)
     session = Session(instant_store)
     session.do(session.runner.start)
-    assert session.outcome.picture is not None
+    assert session.outcome.summary is not None
     assert not session.outcome.compiling
 
 
@@ -324,7 +324,7 @@ def test_a_long_run_shows_its_progress_and_gives_way(make_store, gate, monkeypat
         await until(lambda: gate.gave_up)
 
     asyncio.run(change_of_mind())
-    assert session.outcome.picture.design.pad_stiffness == 600e6
+    assert session.outcome.summary.design.pad_stiffness == 600e6
 
 
 def test_nobody_cancels_what_another_session_waits_for(make_store, gate, monkeypatch):
@@ -337,14 +337,14 @@ def test_nobody_cancels_what_another_session_waits_for(make_store, gate, monkeyp
         other.inputs.pad_stiffness = 500
         await until(lambda: one.outcome.progress is not None and other.outcome.progress is not None)
         one.inputs.pad_stiffness = 600
-        await until(lambda: one.outcome.picture is not None)
+        await until(lambda: one.outcome.summary is not None)
         gate.open.set()
         await until(lambda: not other.outcome.busy)
 
     asyncio.run(share())
     assert gate.gave_up == []
-    assert one.outcome.picture.design.pad_stiffness == 600e6
-    assert other.outcome.picture.design.pad_stiffness == 500e6
+    assert one.outcome.summary.design.pad_stiffness == 600e6
+    assert other.outcome.summary.design.pad_stiffness == 500e6
 
 
 def test_a_long_solve_can_be_stopped(make_store, gate):
@@ -352,7 +352,7 @@ def test_a_long_solve_can_be_stopped(make_store, gate):
 
     async def stop():
         session.inputs.pad_stiffness = 300
-        await until(lambda: session.outcome.picture is not None and not session.outcome.busy)
+        await until(lambda: session.outcome.summary is not None and not session.outcome.busy)
         session.inputs.pad_stiffness = 500
         await until(gate.begun.is_set)
         session.runner.stop()
@@ -364,7 +364,7 @@ def test_a_long_solve_can_be_stopped(make_store, gate):
     assert not session.outcome.busy
     session.change(pad_stiffness=301)
     assert session.outcome.problem == ""
-    assert session.outcome.picture.design.pad_stiffness == 301e6
+    assert session.outcome.summary.design.pad_stiffness == 301e6
 
 
 def test_a_failure_is_told_and_leaves_the_last_good_picture(make_store, fake_picture):
@@ -378,7 +378,7 @@ def test_a_failure_is_told_and_leaves_the_last_good_picture(make_store, fake_pic
     session.change(pad_stiffness=666)
     assert "FloatingPointError" in session.outcome.problem
     assert "Traceback" not in session.outcome.problem
-    assert session.outcome.picture.design.pad_stiffness == 300e6
+    assert session.outcome.summary.design.pad_stiffness == 300e6
     assert not session.outcome.busy
     session.change(pad_stiffness=301)
     assert session.outcome.problem == ""
@@ -392,7 +392,7 @@ def test_a_refused_run_is_told_in_the_core_s_words():
 
 def test_a_picture_that_cannot_be_drawn_is_told(instant_store):
     session = Session(instant_store)
-    session.outcome.param.watch(lambda *_: 1 / 0, "picture")
+    session.outcome.param.watch(lambda *_: 1 / 0, "summary")
     session.change(pad_stiffness=300)
     assert "could not be drawn" in session.outcome.problem
     assert not session.outcome.busy
@@ -401,18 +401,18 @@ def test_a_picture_that_cannot_be_drawn_is_told(instant_store):
 def test_a_modified_design_comes_with_its_preset(instant_store):
     session = Session(instant_store)
     session.do(session.runner.start)
-    assert session.outcome.preset_picture is None
+    assert session.outcome.preset_summary is None
     session.change(pad_stiffness=200)
-    assert session.outcome.preset_picture.design == tig.PRESETS["booted-block-low-mass"]
+    assert session.outcome.preset_summary.design == tig.PRESETS["booted-block-low-mass"]
     session.do(session.inputs.revert)
-    assert session.outcome.preset_picture is None
+    assert session.outcome.preset_summary is None
 
 
 def test_the_preset_is_solved_when_no_one_has_yet(instant_store):
     session = Session(instant_store)
     session.change(pad_stiffness=200)
-    assert session.outcome.picture.design.pad_stiffness == 200e6
-    assert session.outcome.preset_picture.design == tig.PRESETS["booted-block-low-mass"]
+    assert session.outcome.summary.design.pad_stiffness == 200e6
+    assert session.outcome.preset_summary.design == tig.PRESETS["booted-block-low-mass"]
 
 
 def test_a_closed_session_solves_no_more(instant_store):
@@ -420,7 +420,7 @@ def test_a_closed_session_solves_no_more(instant_store):
     session.change(pad_stiffness=300)
     session.runner.close()
     session.change(pad_stiffness=400)
-    assert session.outcome.picture.design.pad_stiffness == 300e6
+    assert session.outcome.summary.design.pad_stiffness == 300e6
 
 
 def test_waiting_for_a_worker_does_not_count_as_long(make_store, fake_picture, monkeypatch):
@@ -436,7 +436,7 @@ def test_waiting_for_a_worker_does_not_count_as_long(make_store, fake_picture, m
     store = make_store(solve, workers=1)
     store.request((tig.PRESETS["slab-track"], AT_REST))
     session = Session(store)
-    session.outcome.picture = fake_picture(tig.PRESETS["slab-track"])
+    session.outcome.summary = fake_picture(tig.PRESETS["slab-track"])
     shown = shown_pictures(session)
 
     async def wait():

@@ -12,7 +12,14 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.figures.axes import nice_step, settled_range
-from dashboard.figures.force import POINTS_BEYOND, POINTS_IN_VIEW, TIME_AXIS, ForceFigure, outline, rungs
+from dashboard.figures.force import (
+    POINTS_BEYOND,
+    POINTS_IN_VIEW,
+    TIME_AXIS,
+    ForceFigure,
+    outline,
+    rounded_ends,
+)
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.figures.legends import MOST_CURVES
 from dashboard.session.curves import Curve
@@ -55,16 +62,16 @@ def test_steps_are_one_two_or_five(span, step):
 
 @given(low=st.floats(-1e3, -1e-3), high=st.floats(1e-3, 1e3))
 def test_rungs_hold_the_data_with_room_for_both_signs(low, high):
-    bottom, top, step = rungs(low, high)
+    bottom, top, step = rounded_ends(low, high)
     assert bottom <= low * (1 - 1e-12)
     assert high * (1 - 1e-12) <= top
     assert bottom / step == pytest.approx(round(bottom / step))
     assert top / step == pytest.approx(round(top / step))
 
 
-def test_the_force_axis_moves_a_few_times_while_a_peak_grows_tenfold(picture):
+def test_the_force_axis_moves_a_few_times_while_a_peak_grows_tenfold(summary):
     force, ends = ForceFigure(), []
-    shown = picture("booted-block-low-mass")
+    shown = summary("booted-block-low-mass")
     for factor in np.geomspace(1, 10, 40):
         force.show(
             dataclasses.replace(
@@ -84,17 +91,17 @@ def gain():
     return InsertionGainFigure()
 
 
-def changed(picture, **frequencies):
+def changed(summary, **frequencies):
     """Return a picture with other natural frequencies."""
-    natural = dataclasses.replace(picture.solution.natural_frequencies, **frequencies)
+    natural = dataclasses.replace(summary.solution.natural_frequencies, **frequencies)
     return dataclasses.replace(
-        picture, solution=dataclasses.replace(picture.solution, natural_frequencies=natural)
+        summary, solution=dataclasses.replace(summary.solution, natural_frequencies=natural)
     )
 
 
-def draw(gain, picture, preset=None, louder=0.0):
+def draw(gain, summary, preset=None, louder=0.0):
     """Draw a picture's insertion gain, and that of a preset behind it."""
-    solution = picture.solution
+    solution = summary.solution
     behind = None if preset is None else preset.solution.insertion_gain
     gain.show(solution.insertion_gain + louder, behind, solution.natural_frequencies)
 
@@ -105,22 +112,22 @@ def listed(figure):
 
 
 @pytest.mark.parametrize("preset", ["slab-track", "booted-block-low-mass"])
-def test_the_curve_is_the_solution(gain, picture, preset):
-    draw(gain, picture(preset))
+def test_the_curve_is_the_solution(gain, summary, preset):
+    draw(gain, summary(preset))
     data = gain.bands.data
-    np.testing.assert_array_equal(data["level"], picture(preset).solution.insertion_gain)
+    np.testing.assert_array_equal(data["level"], summary(preset).solution.insertion_gain)
     np.testing.assert_array_equal(data["centre"], tig.BAND_CENTRES)
     np.testing.assert_array_equal([*data["left"], data["right"][-1]], tig.BAND_EDGES)
     assert tuple(data["label"]) == tig.BAND_LABELS
     assert np.isnan(data["preset"]).all()
 
 
-def test_the_ghost_is_the_preset(gain, picture):
-    draw(gain, picture("slab-track"), picture("booted-sleeper"))
-    ghost = picture("booted-sleeper").solution.insertion_gain
+def test_the_ghost_is_the_preset(gain, summary):
+    draw(gain, summary("slab-track"), summary("booted-sleeper"))
+    ghost = summary("booted-sleeper").solution.insertion_gain
     np.testing.assert_array_equal(gain.bands.data["preset"], ghost)
     assert listed(gain) == ["this design", "as in Table 1"]
-    draw(gain, picture("slab-track"))
+    draw(gain, summary("slab-track"))
     assert listed(gain) == ["this design"]
 
 
@@ -129,8 +136,8 @@ def test_bands_carry_nominal_labels(gain):
     assert [axis.major_label_overrides[tick] for tick in axis.ticker.ticks] == list(tig.BAND_LABELS)
 
 
-def test_hover_tells_band_and_value(gain, picture):
-    draw(gain, picture("booted-block-low-mass"))
+def test_hover_tells_band_and_value(gain, summary):
+    draw(gain, summary("booted-block-low-mass"))
     (hover,) = gain.model.select({"type": HoverTool})
     assert [field for _, field in hover.tooltips] == ["@label Hz", "@level_text", "@preset_text"]
     shown = [float(text.removesuffix(" dB").replace("−", "-")) for text in gain.bands.data["level_text"]]
@@ -141,9 +148,9 @@ def marker(gain, name):
     return gain.model.select_one({"name": name}), gain.model.select_one({"name": f"{name}_label"})
 
 
-def test_markers_stand_at_the_natural_frequencies(gain, picture):
-    draw(gain, picture("booted-block-low-mass"))
-    natural = picture("booted-block-low-mass").solution.natural_frequencies
+def test_markers_stand_at_the_natural_frequencies(gain, summary):
+    draw(gain, summary("booted-block-low-mass"))
+    natural = summary("booted-block-low-mass").solution.natural_frequencies
     for name, frequency in (("loaded_track", natural.loaded_track), ("coupled_block", natural.coupled_block)):
         line, label = marker(gain, name)
         assert line.visible
@@ -151,48 +158,48 @@ def test_markers_stand_at_the_natural_frequencies(gain, picture):
     assert marker(gain, "loaded_track")[1].text == f"loaded track {natural.loaded_track:.1f} Hz"
 
 
-def test_a_single_stage_track_has_no_block_to_mark(gain, picture):
-    draw(gain, picture("booted-block-low-mass"))
-    draw(gain, picture("slab-track"))
+def test_a_single_stage_track_has_no_block_to_mark(gain, summary):
+    draw(gain, summary("booted-block-low-mass"))
+    draw(gain, summary("slab-track"))
     line, label = marker(gain, "coupled_block")
     assert not line.visible
     assert not label.text.strip()
 
 
-def test_a_frequency_beyond_the_axis_is_told_at_its_end(gain, picture):
-    draw(gain, changed(picture("booted-block-low-mass"), coupled_block=2251.0))
+def test_a_frequency_beyond_the_axis_is_told_at_its_end(gain, summary):
+    draw(gain, changed(summary("booted-block-low-mass"), coupled_block=2251.0))
     line, label = marker(gain, "coupled_block")
     assert not line.visible
     assert label.x == tig.BAND_EDGES[-1]
     assert (label.text, label.text_align) == ("coupled block 2251 Hz →", "right")
 
 
-def test_a_label_near_the_right_end_stands_left_of_its_line(gain, picture):
-    draw(gain, changed(picture("booted-block-low-mass"), coupled_block=400.0, loaded_track=30.0))
+def test_a_label_near_the_right_end_stands_left_of_its_line(gain, summary):
+    draw(gain, changed(summary("booted-block-low-mass"), coupled_block=400.0, loaded_track=30.0))
     assert marker(gain, "coupled_block")[1].text_align == "right"
     assert marker(gain, "loaded_track")[1].text_align == "left"
 
 
-def test_the_level_axis_holds_the_curve_and_then_stays(gain, picture):
-    draw(gain, picture("booted-block-low-mass"))
+def test_the_level_axis_holds_the_curve_and_then_stays(gain, summary):
+    draw(gain, summary("booted-block-low-mass"))
     ends = (gain.model.y_range.start, gain.model.y_range.end)
     assert ends[0] < gain.bands.data["level"].min()
     assert gain.bands.data["level"].max() < ends[1]
-    draw(gain, picture("booted-block-low-mass"), louder=2.0)
+    draw(gain, summary("booted-block-low-mass"), louder=2.0)
     assert (gain.model.y_range.start, gain.model.y_range.end) == ends
 
 
-def test_a_zoomed_axis_is_left_alone(gain, picture):
-    draw(gain, picture("slab-track"))
+def test_a_zoomed_axis_is_left_alone(gain, summary):
+    draw(gain, summary("slab-track"))
     gain.model.y_range.update(start=-5, end=5)
-    draw(gain, picture("booted-block-high-mass"))
+    draw(gain, summary("booted-block-high-mass"))
     assert (gain.model.y_range.start, gain.model.y_range.end) == (-5, 5)
     assert gain.model.y_range.reset_start < gain.bands.data["level"].min()
 
 
-def test_the_forces_are_drawn_in_kilonewton(picture):
+def test_the_forces_are_drawn_in_kilonewton(summary):
     force = ForceFigure()
-    shown = picture("booted-block-low-mass")
+    shown = summary("booted-block-low-mass")
     force.show(shown)
     solution = tig.solve(tig.PRESETS["booted-block-low-mass"])
     data = force.samples.data
@@ -207,9 +214,9 @@ def test_the_forces_are_drawn_in_kilonewton(picture):
     assert shown.total_force.max() <= force.model.y_range.end
 
 
-def test_what_is_in_view_is_sent_whole_and_of_the_rest_an_outline(picture):
+def test_what_is_in_view_is_sent_whole_and_of_the_rest_an_outline(summary):
     force = ForceFigure()
-    shown = picture("booted-block-low-mass")
+    shown = summary("booted-block-low-mass")
     force.show(shown)
     in_view = (shown.time >= TIME_AXIS[0]) & (shown.time <= TIME_AXIS[1])
     sent = force.samples.data["time"]
@@ -218,9 +225,9 @@ def test_what_is_in_view_is_sent_whole_and_of_the_rest_an_outline(picture):
     assert sent[[0, -1]] == pytest.approx(shown.time[[0, -1]], abs=1e-6)
 
 
-def test_a_move_along_time_sends_what_comes_into_view(picture):
+def test_a_move_along_time_sends_what_comes_into_view(summary):
     force = ForceFigure()
-    shown = picture("slab-track")
+    shown = summary("slab-track")
     force.show(shown)
     force.model._trigger_event(RangesUpdate(force.model, x0=1.0, x1=1.2, y0=0, y1=1))
     sent = force.samples.data["time"]
@@ -252,17 +259,17 @@ def test_both_forces_have_a_name_and_a_hover():
     assert len(force.model.select({"type": HoverTool})) == len(names)
 
 
-def curve(picture, preset, name):
+def curve(summary, preset, name):
     """Return a pinned design's curve of insertion gain."""
-    return Curve(name, picture(preset).solution.insertion_gain, theme.DESIGN_COLOURS[0], (3, 3))
+    return Curve(name, summary(preset).solution.insertion_gain, theme.DESIGN_COLOURS[0], (3, 3))
 
 
 MARKUP = "<img src=x onerror=console.error(1)>"
 
 
-def test_pinned_curves_are_drawn_and_named(gain, picture):
-    solution = picture("booted-block-low-mass").solution
-    curves = (curve(picture, "slab-track", "a"), curve(picture, "booted-sleeper", MARKUP))
+def test_pinned_curves_are_drawn_and_named(gain, summary):
+    solution = summary("booted-block-low-mass").solution
+    curves = (curve(summary, "slab-track", "a"), curve(summary, "booted-sleeper", MARKUP))
     gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves)
     for place, each in enumerate(curves):
         np.testing.assert_array_equal(gain.pins.data[f"pin_{place}"], each.drawn)
@@ -275,8 +282,8 @@ def test_pinned_curves_are_drawn_and_named(gain, picture):
     assert np.isnan(gain.pins.data["pin_0"]).all()
 
 
-def test_all_pinned_curves_are_seen(gain, picture):
-    solution = picture("booted-block-low-mass").solution
+def test_all_pinned_curves_are_seen(gain, summary):
+    solution = summary("booted-block-low-mass").solution
     high = Curve("loud", solution.insertion_gain + 40, theme.DESIGN_COLOURS[0], ())
     gain.show(solution.insertion_gain, None, solution.natural_frequencies, (high,))
     assert gain.model.y_range.end >= high.drawn.max()
@@ -287,8 +294,8 @@ def limits(**levels):
     return np.array([levels.get(f"at_{label.replace('.', '_')}", np.nan) for label in tig.BAND_LABELS])
 
 
-def test_a_limit_is_drawn_where_there_is_one_and_failing_bands_are_marked(gain, picture):
-    solution = picture("booted-block-low-mass").solution
+def test_a_limit_is_drawn_where_there_is_one_and_failing_bands_are_marked(gain, summary):
+    solution = summary("booted-block-low-mass").solution
     levels = solution.insertion_gain
     bands = {label: tig.BAND_LABELS.index(label) for label in ("40", "50", "100")}
     limit = limits(at_40=levels[bands["40"]] - 3, at_50=levels[bands["50"]] + 1, at_100=levels[bands["100"]])
@@ -304,9 +311,9 @@ def test_a_limit_is_drawn_where_there_is_one_and_failing_bands_are_marked(gain, 
     assert listed(gain) == ["this design"]
 
 
-def test_curves_alone_leave_the_design_at_hand_out(gain, picture):
-    solution = picture("booted-block-low-mass").solution
-    curves = (curve(picture, "slab-track", "a"),)
+def test_curves_alone_leave_the_design_at_hand_out(gain, summary):
+    solution = summary("booted-block-low-mass").solution
+    curves = (curve(summary, "slab-track", "a"),)
     gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves, alone=True)
     assert listed(gain) == ["a"]
     assert not marker(gain, "loaded_track")[0].visible
@@ -314,11 +321,11 @@ def test_curves_alone_leave_the_design_at_hand_out(gain, picture):
     assert listed(gain) == ["this design", "a"]
 
 
-def test_pinned_forces_are_drawn_and_follow_a_zoom(picture):
+def test_pinned_forces_are_drawn_and_follow_a_zoom(summary):
     force = ForceFigure()
-    pinned = (Curve("slab", picture("slab-track"), theme.DESIGN_COLOURS[0], ()),)
-    force.show(picture("booted-block-low-mass"), pinned)
-    data, shown = force.pins[0].data, picture("slab-track")
+    pinned = (Curve("slab", summary("slab-track"), theme.DESIGN_COLOURS[0], ()),)
+    force.show(summary("booted-block-low-mass"), pinned)
+    data, shown = force.pins[0].data, summary("slab-track")
     at = np.searchsorted(shown.time, data["time"].astype(float) - 1e-6)
     np.testing.assert_allclose(data["total"], shown.total_force[at], rtol=1e-5, atol=1e-6)
     assert listed(force) == ["all supports", "support under the wheel", "slab"]
@@ -327,15 +334,15 @@ def test_pinned_forces_are_drawn_and_follow_a_zoom(picture):
     sent = force.pins[0].data["time"]
     expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
     assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
-    force.show(picture("booted-block-low-mass"))
+    force.show(summary("booted-block-low-mass"))
     assert not len(force.pins[0].data["time"])
 
 
-def test_a_frame_sends_nothing_of_the_pins(gain, picture):
-    force, shown = ForceFigure(), picture("booted-block-low-mass")
+def test_a_frame_sends_nothing_of_the_pins(gain, summary):
+    force, shown = ForceFigure(), summary("booted-block-low-mass")
     natural = shown.solution.natural_frequencies
-    gains = tuple(curve(picture, "slab-track", str(place)) for place in range(MOST_CURVES))
-    forces = tuple(each._replace(drawn=picture("slab-track")) for each in gains)
+    gains = tuple(curve(summary, "slab-track", str(place)) for place in range(MOST_CURVES))
+    forces = tuple(each._replace(drawn=summary("slab-track")) for each in gains)
     gain.show(shown.solution.insertion_gain, None, natural, gains)
     force.show(shown, forces)
     sources = (gain.pins, *force.pins)

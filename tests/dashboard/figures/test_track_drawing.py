@@ -218,9 +218,9 @@ def test_measured_curves_are_drawn_as_at_50_hz():
 
 def test_a_hostile_name_stays_text():
     name = "\"'><script>alert(1)</script>"
-    picture = track_drawing.track_svg(LOW_MASS.replace(rail=tig.Rail(name, 60.0, 6e6)))
-    assert "<script" not in picture
-    assert name in ET.fromstring(picture).find(f"{SVG}desc").text
+    summary = track_drawing.track_svg(LOW_MASS.replace(rail=tig.Rail(name, 60.0, 6e6)))
+    assert "<script" not in summary
+    assert name in ET.fromstring(summary).find(f"{SVG}desc").text
 
 
 @pytest.mark.parametrize("preset", tig.PRESETS)

@@ -17,7 +17,7 @@ def table(text):
 def test_gain_of_every_design_stands_beside_its_band(session):
     session.show("booted-sleeper")
     session.pin("slab-track", "=SUM(A1)")
-    header, rows = table(gain_csv(session.workshop.shown))
+    header, rows = table(gain_csv(session.assessment.shown))
     assert header == ["frequency_hz", "insertion_gain_db This design", "insertion_gain_db =SUM(A1)"]
     assert [row[0] for row in rows] == list(tig.BAND_LABELS)
     for column, preset in ((1, "booted-sleeper"), (2, "slab-track")):
@@ -25,13 +25,13 @@ def test_gain_of_every_design_stands_beside_its_band(session):
         np.testing.assert_array_equal(gain, tig.solve(tig.PRESETS[preset]).insertion_gain)
 
 
-def test_forces_keep_the_time_of_their_own_run(session, picture):
+def test_forces_keep_the_time_of_their_own_run(session, summary):
     session.show("booted-block-low-mass")
     session.pin("slab-track", "Slab")
-    header, rows = table(force_csv(session.workshop.shown))
+    header, rows = table(force_csv(session.assessment.shown))
     assert header[3:] == ["time_s Slab", "total_force_kN Slab", "loaded_support_force_kN Slab"]
     for first, preset in ((0, "booted-block-low-mass"), (3, "slab-track")):
-        shown = picture(preset)
+        shown = summary(preset)
         columns = np.array([row[first : first + 3] for row in rows if row[first]], dtype=float).T
         for column, curve in zip(
             columns, (shown.time, shown.total_force, shown.loaded_support_force), strict=True

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from dashboard.fields import INPUTS, NUMBERS, six_figures
 from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
-from dashboard.session.inputs import DesignInputs, Presentation, check_values, preset_values
+from dashboard.session.inputs import DesignInputs, GainDefinition, check_values, preset_values
 from dashboard.session.pins import MOST, Pin, Pins
 from trackig_core.names import LONGEST_NAME
 
@@ -188,7 +188,7 @@ def test_a_page_may_offer_further_views():
 def test_views_are_those_that_the_page_offers():
     for name, allowed in VIEW_CHOICES.items():
         for value in allowed:
-            assert getattr(Presentation(**opened(**{name: value.encode()}).view), name) == value
+            assert getattr(GainDefinition(**opened(**{name: value.encode()}).view), name) == value
 
 
 def test_unknown_keys_are_said_by_their_letters_alone():
@@ -285,7 +285,7 @@ def test_nothing_that_a_link_may_hold_does_harm(hostile):
     inputs = DesignInputs()
     inputs.take(link.values)
     inputs.to_design()
-    Presentation(**link.view)
+    GainDefinition(**link.view)
     pins = Pins()
     pins.replace_all(link.pins, link.base)
     assert decode(arguments(encode(link.values, link.view, link.pins, link.base))).pins == link.pins

@@ -23,49 +23,49 @@ def filled(session):
     session.pin("slab-track", "Slab & <b>co</b>")
     second = session.pin("booted-block-high-mass", "Heavy")
     session.pins.choose_base(second.key)
-    session.presentation.param.update(summation="coherent", reference="rigid")
-    session.workshop.param.update(specification=LIMITS, source=SOURCE, title="A workshop")
-    session.keeping.tab = "level"
+    session.definition.param.update(summation="coherent", reference="rigid")
+    session.assessment.param.update(specification=LIMITS, source=SOURCE, title="A workshop")
+    session.snapshot.tab = "level"
     return session
 
 
 def state(session):
     pins = [(pin.name, pin.colour, pin.shown, dict(pin.values)) for pin in session.pins.pinned]
     base = session.pins.base and session.pins[session.pins.base].name
-    chosen = session.presentation.summation, session.presentation.reference
+    chosen = session.definition.summation, session.definition.reference
     return session.inputs.to_values(), pins, base, chosen
 
 
-def test_a_link_reopens_design_pins_view_and_tab(filled, picture):
-    other = type(filled)(picture)
-    assert other.keeping.follow(arguments(filled.keeping.query())) == ()
+def test_a_link_reopens_design_pins_view_and_tab(filled, summary):
+    other = type(filled)(summary)
+    assert other.snapshot.follow(arguments(filled.snapshot.query())) == ()
     assert state(other) == state(filled)
-    assert other.keeping.tab == "level"
-    assert other.keeping.query() == filled.keeping.query()
+    assert other.snapshot.tab == "level"
+    assert other.snapshot.query() == filled.snapshot.query()
 
 
-def test_the_paper_s_figure_2_reopens_alone(session, picture):
+def test_the_paper_s_figure_2_reopens_alone(session, summary):
     session.pins.show_table_1()
-    other = type(session)(picture)
-    other.keeping.follow(arguments(session.keeping.query()))
+    other = type(session)(summary)
+    other.snapshot.follow(arguments(session.snapshot.query()))
     assert other.pins.alone
 
 
-def test_a_study_reopens_everything_exactly(filled, picture):
-    other = type(filled)(picture)
-    other.keeping.open(filled.keeping.study().to_toml().encode())
+def test_a_study_reopens_everything_exactly(filled, summary):
+    other = type(filled)(summary)
+    other.snapshot.open(filled.snapshot.study().to_toml().encode())
     assert state(other) == state(filled)
-    assert other.workshop.specification == LIMITS
-    assert other.workshop.source == SOURCE
-    assert other.workshop.title == "A workshop"
-    assert other.keeping.study() == filled.keeping.study()
+    assert other.assessment.specification == LIMITS
+    assert other.assessment.source == SOURCE
+    assert other.assessment.title == "A workshop"
+    assert other.snapshot.study() == filled.snapshot.study()
 
 
-def test_a_study_replaces_what_was_there(filled, picture):
-    filled.keeping.open(type(filled)(picture).keeping.study().to_toml())
+def test_a_study_replaces_what_was_there(filled, summary):
+    filled.snapshot.open(type(filled)(summary).snapshot.study().to_toml())
     assert filled.pins.pinned == ()
-    assert filled.workshop.specification is None
-    assert filled.workshop.source is None
+    assert filled.assessment.specification is None
+    assert filled.assessment.source is None
 
 
 @pytest.mark.parametrize(
@@ -80,13 +80,13 @@ def test_a_study_replaces_what_was_there(filled, picture):
         lambda _: b"\xff\x00\xfe",
     ],
 )
-def test_a_study_at_fault_changes_nothing(filled, picture, spoil):
-    text = filled.keeping.study().to_toml()
-    other = type(filled)(picture)
-    before = other.keeping.study()
+def test_a_study_at_fault_changes_nothing(filled, summary, spoil):
+    text = filled.snapshot.study().to_toml()
+    other = type(filled)(summary)
+    before = other.snapshot.study()
     with pytest.raises(tig.StudyError):
-        other.keeping.open(spoil(text))
-    assert other.keeping.study() == before
+        other.snapshot.open(spoil(text))
+    assert other.snapshot.study() == before
 
 
 def test_a_hostile_link_opens_what_it_can_and_tells_the_rest(session):
@@ -98,10 +98,10 @@ def test_a_hostile_link_opens_what_it_can_and_tells_the_rest(session):
         "<img src=x onerror=alert(1)>": [b"x"],
         "block_mass": [b"77"],
     }
-    problems = session.keeping.follow(hostile)
+    problems = session.snapshot.follow(hostile)
     assert session.inputs.block_mass == 77
     assert session.inputs.boot_stiffness == 200
-    assert session.keeping.tab == "explore"
+    assert session.snapshot.tab == "explore"
     assert not session.pins.alone
     assert len(problems) == 5
     assert not any("<" in words for words in problems)
@@ -109,12 +109,12 @@ def test_a_hostile_link_opens_what_it_can_and_tells_the_rest(session):
 
 def test_every_change_that_is_kept_is_told(session):
     told = []
-    session.keeping.watch(lambda *_: told.append(session.keeping.query()))
+    session.snapshot.watch(lambda *_: told.append(session.snapshot.query()))
     session.inputs.boot_stiffness = 30
-    session.presentation.reference = "rigid"
+    session.definition.reference = "rigid"
     session.pin("slab-track")
-    session.workshop.specification = LIMITS
-    session.keeping.tab = "keep"
+    session.assessment.specification = LIMITS
+    session.snapshot.tab = "keep"
     assert len(told) >= 5
     assert "boot_stiffness=30" in told[-1]
     assert "tab=keep" in told[-1]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, six_figures
 from dashboard.persistence.studies import from_study, to_study
-from dashboard.session.inputs import DesignInputs, Presentation, design_of, preset_values
+from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values
 from dashboard.session.pins import MOST, Pin, Pins
 from trackig_core.names import LONGEST_NAME, is_name
 
@@ -38,7 +38,7 @@ any_values = st.fixed_dictionaries(
     }
 ).map(as_kept)
 any_view = st.fixed_dictionaries(
-    {name: st.sampled_from([*Presentation.param[name].objects]) for name in ("summation", "reference")}
+    {name: st.sampled_from([*GainDefinition.param[name].objects]) for name in ("summation", "reference")}
 )
 printable = st.characters(exclude_categories=["C", "Z"], include_characters=" ")
 any_name = st.text(printable, min_size=1, max_size=LONGEST_NAME).filter(is_name)
@@ -62,13 +62,13 @@ def tables(kind):
 @given(any_values, any_view, any_pins(), tables(tig.Specification), tables(tig.SourceSpectrum), st.data())
 def test_what_was_saved_opens_as_it_was(values, view, pins, specification, source, data):
     base = data.draw(st.sampled_from([None, *range(len(pins))]))
-    study = to_study(values, view, pins, base, specification, source, "Workshop")
+    study = to_study(values, view, pins, base, specification, source, "Assessment")
     opened = from_study(tig.Study.from_toml(study.to_toml()))
     assert opened.values == values
     assert opened.view == view
     assert opened.pins == pins
     assert opened.base == base
-    assert (opened.specification, opened.source, opened.name) == (specification, source, "Workshop")
+    assert (opened.specification, opened.source, opened.name) == (specification, source, "Assessment")
 
 
 @given(any_values, any_pins(1))

@@ -12,7 +12,7 @@ import pytest
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.report.html_report import html_report
-from dashboard.session.results import Picture
+from dashboard.session.results import SolutionSummary
 
 LOW, HIGH = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["booted-block-high-mass"]
 HOSTILE = '<script>alert(1)</script>$\\frac "&</svg>'
@@ -58,8 +58,8 @@ def row(reader, head):
 
 
 @pytest.fixture
-def pictures(picture):
-    return {tig.PRESETS[key]: picture(key) for key in tig.PRESETS}
+def summaries(summary):
+    return {tig.PRESETS[key]: summary(key) for key in tig.PRESETS}
 
 
 def limits(levels, **changed):
@@ -69,8 +69,8 @@ def limits(levels, **changed):
 
 
 @pytest.fixture
-def study(pictures):
-    levels = pictures[LOW].solution.insertion_gain
+def study(summaries):
+    levels = summaries[LOW].solution.insertion_gain
     pinned = [
         tig.PinnedDesign(HOSTILE, HIGH, colour=4),
         tig.PinnedDesign("Hidden one", tig.PRESETS["booted-sleeper"], shown=False),
@@ -81,8 +81,8 @@ def study(pictures):
 
 
 @pytest.fixture
-def report(study, pictures):
-    return html_report(study, pictures, date=DAY, version="9.8.7")
+def report(study, summaries):
+    return html_report(study, summaries, date=DAY, version="9.8.7")
 
 
 def test_the_report_is_well_formed_and_dated(report, study):
@@ -118,9 +118,9 @@ def test_identifiers_are_unique_and_referenced_ones_exist(report):
     assert set(wanted) <= set(identifiers)
 
 
-def test_bands_margins_and_verdicts_are_those_of_the_core(report, study, pictures):
+def test_bands_margins_and_verdicts_are_those_of_the_core(report, study, summaries):
     reader = Reader(report)
-    levels = [pictures[design].solution.insertion_gain for design in (LOW, HIGH, tig.PRESETS["slab-track"])]
+    levels = [summaries[design].solution.insertion_gain for design in (LOW, HIGH, tig.PRESETS["slab-track"])]
     verdicts = [study.specification.check(each) for each in levels]
     for band, label in enumerate(tig.BAND_LABELS):
         gains, margins = row(reader, label)
@@ -145,17 +145,17 @@ def test_inputs_have_the_units_of_the_trade(report):
     assert row(reader, "Rail")[0][0] == "60: 60 kg/m, 6.3798 MN m²"
 
 
-def test_natural_frequencies_are_those_of_the_solutions(report, pictures):
-    natural = pictures[HIGH].solution.natural_frequencies
+def test_natural_frequencies_are_those_of_the_solutions(report, summaries):
+    natural = summaries[HIGH].solution.natural_frequencies
     reader = Reader(report)
     assert row(reader, "Loaded track")[0][1] == f"{natural.loaded_track:.1f}"
     assert row(reader, "Coupled block")[0][1:] == [f"{natural.coupled_block:.0f}", "–"]
 
 
-def test_levels_with_the_track_are_those_of_the_source(report, study, pictures):
+def test_levels_with_the_track_are_those_of_the_source(report, study, summaries):
     reader = Reader(report)
     slab, here = (
-        study.source.with_track(pictures[design].solution.insertion_gain)
+        study.source.with_track(summaries[design].solution.insertion_gain)
         for design in (tig.PRESETS["slab-track"], LOW)
     )
     (cells,) = row(reader, "Slab")
@@ -168,8 +168,8 @@ def test_levels_with_the_track_are_those_of_the_source(report, study, pictures):
     assert row(reader, "Reference track")[0][0] == f"{10 * np.log10(10**7 + 10**6.5):.1f}"
 
 
-def test_hidden_and_unsolved_designs_are_named(study, pictures):
-    some = {design: each for design, each in pictures.items() if design != tig.PRESETS["slab-track"]}
+def test_hidden_and_unsolved_designs_are_named(study, summaries):
+    some = {design: each for design, each in summaries.items() if design != tig.PRESETS["slab-track"]}
     report = html_report(study, some, date=DAY, version="1")
     assert "left out: Slab." in report
     assert "judged: Hidden one." in report
@@ -181,10 +181,10 @@ def test_the_report_holds_the_study(report, study):
     assert tig.Study.from_toml(html.unescape(text)) == study
 
 
-def test_insertion_gain_is_reckoned_as_the_study_says(study, pictures):
+def test_insertion_gain_is_reckoned_as_the_study_says(study, summaries):
     view = tig.View(summation="coherent", reference="rigid")
     report = html_report(
-        tig.Study(HIGH, specification=study.specification, view=view), pictures, date=DAY, version="1"
+        tig.Study(HIGH, specification=study.specification, view=view), summaries, date=DAY, version="1"
     )
     expected = tig.solve(HIGH, "paper", summation="coherent", reference="rigid").insertion_gain
     shown = [row(Reader(report), label)[0][1] for label in tig.BAND_LABELS]
@@ -193,7 +193,7 @@ def test_insertion_gain_is_reckoned_as_the_study_says(study, pictures):
 
 
 def test_a_bare_design_without_time_records_makes_a_short_report():
-    exact = Picture.of(tig.solve(LOW, "exact"), 0.1)
+    exact = SolutionSummary.of(tig.solve(LOW, "exact"), 0.1)
     report = html_report(tig.Study(LOW), {LOW: exact}, date=DAY, version="1")
     assert Reader(report).open == []
     for absent in ("Verdict", "Force into", "Difference from", "Margin", "Level with", "Limit"):
@@ -220,11 +220,11 @@ def test_without_any_solution_there_is_no_report(study):
         html_report(study, {}, date=DAY, version="1")
 
 
-def test_failing_bands_are_marked_in_the_plot(pictures):
-    levels = pictures[LOW].solution.insertion_gain
+def test_failing_bands_are_marked_in_the_plot(summaries):
+    levels = summaries[LOW].solution.insertion_gain
 
     def marks(specification):
-        report = html_report(tig.Study(LOW, specification=specification), pictures, date=DAY, version="1")
+        report = html_report(tig.Study(LOW, specification=specification), summaries, date=DAY, version="1")
         return report.count(f"fill: {theme.REPORT_BAD}")
 
     failing = limits(levels)
@@ -233,9 +233,9 @@ def test_failing_bands_are_marked_in_the_plot(pictures):
     assert (met, marks(tig.Specification(tight))) == (0, 2)
 
 
-def test_designs_look_as_their_colours_say_and_no_two_alike(study, pictures):
+def test_designs_look_as_their_colours_say_and_no_two_alike(study, summaries):
     pinned = [dataclasses.replace(each, colour=4, shown=True) for each in study.pinned]
-    report = html_report(dataclasses.replace(study, pinned=pinned), pictures, date=DAY, version="9.8.7")
+    report = html_report(dataclasses.replace(study, pinned=pinned), summaries, date=DAY, version="9.8.7")
     looks = re.findall(r'stroke="(#\w+)" stroke-width="3" stroke-dasharray="([\d ]*)"', report)[:4]
     own = [(theme.DESIGN_COLOURS[n], " ".join(map(str, theme.DESIGN_DASHES[n]))) for n in (4, 0, 1)]
     assert looks == [(theme.THIS_DESIGN, ""), *own]

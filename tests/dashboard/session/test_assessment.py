@@ -12,9 +12,9 @@ SOURCE = tig.SourceSpectrum([(31.5, 60.0), (63, 70.5)])
 
 def test_every_design_that_is_solved_is_assessed_under_its_name(session):
     session.show("booted-block-low-mass")
-    session.workshop.specification = LIMITS
+    session.assessment.specification = LIMITS
     pin = session.pin("slab-track", "Slab")
-    hand, slab = session.workshop.assessed
+    hand, slab = session.assessment.assessed
     assert (hand.key, hand.name) == (None, THIS_DESIGN)
     assert (slab.key, slab.name, slab.colour, slab.dash) == (pin.key, "Slab", pin.colour_code, pin.dash)
     for each, preset in ((hand, "booted-block-low-mass"), (slab, "slab-track")):
@@ -26,25 +26,25 @@ def test_every_design_that_is_solved_is_assessed_under_its_name(session):
 def test_a_pin_without_a_picture_is_not_assessed(session):
     session.show("slab-track")
     session.pins.add(session.inputs.to_values(), "Not solved yet")
-    assert [each.name for each in session.workshop.assessed] == [THIS_DESIGN]
+    assert [each.name for each in session.assessment.assessed] == [THIS_DESIGN]
 
 
 def test_hidden_pins_are_assessed_but_not_shown(session):
     session.show("slab-track")
     pin = session.pin("booted-sleeper", "Sleeper")
     session.pins.show(pin.key, False)
-    assert [each.name for each in session.workshop.assessed] == [THIS_DESIGN, "Sleeper"]
-    assert [each.name for each in session.workshop.shown] == [THIS_DESIGN]
+    assert [each.name for each in session.assessment.assessed] == [THIS_DESIGN, "Sleeper"]
+    assert [each.name for each in session.assessment.shown] == [THIS_DESIGN]
 
 
 def test_levels_follow_the_source_the_base_and_the_choice_of_gain(session):
     session.show("booted-block-low-mass")
     pin = session.pin("slab-track", "Slab")
-    session.workshop.source = SOURCE
+    session.assessment.source = SOURCE
     session.pins.choose_base(pin.key)
-    session.presentation.param.update(summation="coherent", reference="rigid")
-    hand, slab = session.workshop.assessed
-    assert session.workshop.base is slab
+    session.definition.param.update(summation="coherent", reference="rigid")
+    hand, slab = session.assessment.assessed
+    assert session.assessment.base is slab
     chosen = {"summation": "coherent", "reference": "rigid"}
     for each, preset in ((hand, "booted-block-low-mass"), (slab, "slab-track")):
         expected = SOURCE.with_track(tig.solve(tig.PRESETS[preset], **chosen).insertion_gain)
@@ -54,6 +54,6 @@ def test_levels_follow_the_source_the_base_and_the_choice_of_gain(session):
 
 def test_without_specification_and_source_there_is_no_verdict_and_no_level(session):
     session.show("slab-track")
-    (hand,) = session.workshop.assessed
+    (hand,) = session.assessment.assessed
     assert hand.verdict is None
     assert hand.level is None

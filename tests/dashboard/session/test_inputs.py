@@ -7,7 +7,7 @@ import pytest
 import trackig_core as tig
 from dashboard.fields import INPUTS, NUMBERS, PHYSICAL, PRESET_LABELS, to_display, to_si
 from dashboard.session.inputs import DesignInputs, design_of, preset_values
-from dashboard.session.results import Picture
+from dashboard.session.results import SolutionSummary
 
 
 @pytest.mark.parametrize("preset", tig.PRESETS)
@@ -178,18 +178,18 @@ def test_labels_carry_units():
 
 def test_a_picture_is_a_solution_in_display_units_without_its_history():
     solution = tig.solve(tig.PRESETS["booted-block-low-mass"], "live")
-    picture = Picture.of(solution, 0.25)
-    assert picture.design == solution.design
-    assert picture.solution.history is None
-    assert picture.solution.insertion_gain == pytest.approx(solution.insertion_gain, abs=0)
-    assert 1000 * picture.total_force == pytest.approx(solution.total_force)
-    assert 1000 * picture.loaded_support_force == pytest.approx(solution.loaded_support_force)
-    assert picture.time is solution.time
-    assert picture.step / 1000 == pytest.approx(solution.history.step)
-    assert picture.seconds == 0.25
+    summary = SolutionSummary.of(solution, 0.25)
+    assert summary.design == solution.design
+    assert summary.solution.history is None
+    assert summary.solution.insertion_gain == pytest.approx(solution.insertion_gain, abs=0)
+    assert 1000 * summary.total_force == pytest.approx(solution.total_force)
+    assert 1000 * summary.loaded_support_force == pytest.approx(solution.loaded_support_force)
+    assert summary.time is solution.time
+    assert summary.step / 1000 == pytest.approx(solution.history.step)
+    assert summary.seconds == 0.25
 
 
 def test_an_exact_picture_has_no_forces_over_time():
-    picture = Picture.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.001)
-    assert picture.solution.insertion_gain.shape == (21,)
-    assert [picture.time, picture.loaded_support_force, picture.total_force, picture.step] == [None] * 4
+    summary = SolutionSummary.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.001)
+    assert summary.solution.insertion_gain.shape == (21,)
+    assert [summary.time, summary.loaded_support_force, summary.total_force, summary.step] == [None] * 4

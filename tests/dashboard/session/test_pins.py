@@ -5,7 +5,7 @@ import pytest
 import trackig_core as tig
 from dashboard import theme
 from dashboard.session.inputs import DesignInputs, preset_values
-from dashboard.session.pins import MOST, Pin, PinError, Pins, own_colours
+from dashboard.session.pins import MOST, Pin, PinError, Pins, distinct_colours
 from trackig_core.names import LONGEST_NAME
 
 VALUES = preset_values("booted-sleeper")
@@ -197,4 +197,4 @@ def test_values_that_no_slider_shows_are_no_pin():
     [((), ()), ((4, 1), (4, 1)), ((0, 0, 1), (0, 2, 1)), ((7,) * MOST, (7, *range(MOST - 1)))],
 )
 def test_designs_that_want_one_colour_get_their_own(wanted, given):
-    assert own_colours(wanted) == given
+    assert distinct_colours(wanted) == given

@@ -19,7 +19,7 @@ ALL = [
     (explanations.slopes, "line", "energy"),
     (explanations.damping, "line", "energy"),
     (explanations.definitions,),
-    (explanations.ladder, "rigid", "coherent"),
+    (explanations.lumped_vs_beam, "rigid", "coherent"),
 ]
 
 
@@ -114,7 +114,7 @@ def test_definitions_are_the_library_s(preset):
 
 @pytest.mark.parametrize("preset", list(tig.PRESETS))
 def test_the_ladder_s_words_are_those_of_its_bands(preset):
-    told = explanations.ladder(tig.PRESETS[preset], "line", "energy")
+    told = explanations.lumped_vs_beam(tig.PRESETS[preset], "line", "energy")
     good = told.comparison.good_enough
     assert f"in {good.sum()} of 21 bands: {explanations.band_ranges(good)}." in told.words[0]
     worst = np.argmax(np.abs(told.comparison.difference))

@@ -8,7 +8,7 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.client.browser import Browser
 from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import DesignInputs, Presentation, preset_values
+from dashboard.session.inputs import DesignInputs, GainDefinition, preset_values
 from dashboard.session.pins import MOST, Pins
 from dashboard.session.results import Outcome
 from dashboard.views.compare import Compare
@@ -24,18 +24,18 @@ KEYS = ("slab-track", "booted-sleeper")
 class Session:
     """What a user has in front of him, with two pins and no solver."""
 
-    def __init__(self, picture, make_pictures):
-        self.inputs, self.presentation, self.pins = DesignInputs(), Presentation(), Pins()
-        self.outcome = Outcome(picture=picture("booted-block-low-mass"))
+    def __init__(self, summary, make_pictures):
+        self.inputs, self.definition, self.pins = DesignInputs(), GainDefinition(), Pins()
+        self.outcome = Outcome(summary=summary("booted-block-low-mass"))
         self.slab, self.sleeper = self.pins.add_all([(preset_values(key), key) for key in KEYS])
-        pictures = {self.slab.key: picture("slab-track"), self.sleeper.key: picture("booted-sleeper")}
-        self.pinned = make_pictures(pictures=pictures)
-        self.curves = PinnedCurves(self.pins, self.pinned, self.presentation)
+        summaries = {self.slab.key: summary("slab-track"), self.sleeper.key: summary("booted-sleeper")}
+        self.pinned = make_pictures(summaries=summaries)
+        self.curves = PinnedCurves(self.pins, self.pinned, self.definition)
         self.asked = []
         self.view = Compare(
             self.inputs,
             self.outcome,
-            self.presentation,
+            self.definition,
             self.pins,
             self.pinned,
             self.curves,
@@ -60,8 +60,8 @@ class Session:
 
 
 @pytest.fixture
-def session(picture, make_pictures):
-    return Session(picture, make_pictures)
+def session(summary, make_pictures):
+    return Session(summary, make_pictures)
 
 
 def test_parameters_stand_side_by_side_in_display_units(session):
@@ -119,16 +119,16 @@ def test_a_base_that_is_not_solved_yet_says_no_differences(session):
 
 
 def test_the_choice_of_sum_is_compared_too(session):
-    session.presentation.summation = "coherent"
+    session.definition.summation = "coherent"
     band = tig.BAND_LABELS.index("125")
     slab = tig.solve(tig.PRESETS["slab-track"], summation="coherent").insertion_gain[band]
     assert session.row("125 Hz")[1][0] == formats.signed_text(slab)
 
 
-def test_nothing_is_reckoned_while_nobody_looks(session, picture):
+def test_nothing_is_reckoned_while_nobody_looks(session, summary):
     before = session.table
     session.view.look(in_sight=False)
-    session.outcome.picture = picture("booted-block-high-mass")
+    session.outcome.summary = summary("booted-block-high-mass")
     assert session.table == before
     session.view.look(in_sight=True)
     assert session.table != before
@@ -263,9 +263,9 @@ def test_a_ninth_pin_is_refused_and_its_name_kept(bar):
     assert bar.bar.name_box.value == "one more"
 
 
-def test_the_drawing_follows_the_sliders_while_it_is_in_sight(picture):
+def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     inputs = DesignInputs()
-    track = Track(inputs, Outcome(picture=picture("slab-track")))
+    track = Track(inputs, Outcome(summary=summary("slab-track")))
     assert track.drawing.object == ""
     track.look(in_sight=True)
     inputs.block_mass = 222.0

@@ -8,9 +8,9 @@ import pytest
 import trackig_core as tig
 from dashboard.fields import PRESET_LABELS
 from dashboard.formats import duration_text
-from dashboard.session.assessment import Workshop
+from dashboard.session.assessment import Assessment
 from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import Presentation, preset_values
+from dashboard.session.inputs import GainDefinition, preset_values
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.explore import Explore
@@ -27,46 +27,46 @@ def outcome():
 def explore(make_pictures):
     """Return a function that makes the view, with pins and pictures of theirs if a test gives them."""
 
-    def make(outcome, presentation, pins=None, pinned=None):
+    def make(outcome, definition, pins=None, pinned=None):
         pins, pinned = pins or Pins(), pinned or make_pictures()
-        curves = PinnedCurves(pins, pinned, presentation)
-        workshop = Workshop(outcome, presentation, pins, pinned, curves)
-        return Explore(outcome, presentation, pins, curves, workshop)
+        curves = PinnedCurves(pins, pinned, definition)
+        assessment = Assessment(outcome, definition, pins, pinned, curves)
+        return Explore(outcome, definition, pins, curves, assessment)
 
     return make
 
 
-def test_the_status_follows_a_solve(outcome, picture):
+def test_the_status_follows_a_solve(outcome, summary):
     status = Status(outcome, lambda *_: None, lambda *_: None)
     assert "Not solved yet" in status.text.object
     outcome.busy = True
     assert "Solving …" in status.text.object
-    shown = picture("slab-track")
-    outcome.param.update(picture=shown, busy=False)
+    shown = summary("slab-track")
+    outcome.param.update(summary=shown, busy=False)
     assert f"Paper&#x27;s run, solved in {duration_text(shown.seconds)}" in status.text.object
     outcome.from_cache = True
     assert "solved before" in status.text.object
 
 
-def test_the_status_and_a_chip_say_which_fidelity_is_on_screen(explore, outcome, fake_picture, picture):
-    view, design = explore(outcome, Presentation()), picture("slab-track").design
-    outcome.picture = fake_picture(design, fidelity="live", notes=("17 bays",))
+def test_the_status_and_a_chip_say_which_fidelity_is_on_screen(explore, outcome, fake_picture, summary):
+    view, design = explore(outcome, GainDefinition()), summary("slab-track").design
+    outcome.summary = fake_picture(design, fidelity="live", notes=("17 bays",))
     assert status_words(outcome).startswith("Live run, solved in")
     assert status_words(outcome).endswith("17 bays")
     assert view.fidelity.label == "live run"
-    outcome.picture = picture("slab-track")
+    outcome.summary = summary("slab-track")
     assert status_words(outcome).startswith("Paper's run, solved in")
     assert view.fidelity.label == "paper's run"
 
 
-def test_notes_of_the_solution_are_told(outcome, fake_picture, picture):
-    design = picture("slab-track").design
-    outcome.picture = fake_picture(design, notes=("time step halved once", "record extended"))
+def test_notes_of_the_solution_are_told(outcome, fake_picture, summary):
+    design = summary("slab-track").design
+    outcome.summary = fake_picture(design, notes=("time step halved once", "record extended"))
     assert status_words(outcome).endswith(" · time step halved once · record extended")
 
 
-def test_a_problem_is_told_before_the_old_picture(outcome, picture):
-    outcome.param.update(picture=picture("slab-track"), problem="The solver failed.")
+def test_a_problem_is_told_before_the_old_picture(outcome, summary):
+    outcome.param.update(summary=summary("slab-track"), problem="The solver failed.")
     assert status_words(outcome) == "The solver failed."
     assert 'class="problem"' in status_html(outcome)
 
@@ -110,9 +110,9 @@ def test_what_was_not_solved_can_be_solved_after_all(outcome):
     assert not status.solve.visible
 
 
-def test_pictures_of_earlier_inputs_are_dimmed(explore, outcome, picture):
-    outcome.picture = picture("slab-track")
-    view = explore(outcome, Presentation())
+def test_pictures_of_earlier_inputs_are_dimmed(explore, outcome, summary):
+    outcome.summary = summary("slab-track")
+    view = explore(outcome, GainDefinition())
     looks = (*view.panes, view.frequencies.pane)
     for changes, dimmed in (
         ({"problem": "Stopped."}, True),
@@ -123,59 +123,59 @@ def test_pictures_of_earlier_inputs_are_dimmed(explore, outcome, picture):
         assert [float(pane.styles["opacity"]) < 1 for pane in looks] == [dimmed] * 3
 
 
-def test_frequencies_are_those_of_the_solution(outcome, picture):
+def test_frequencies_are_those_of_the_solution(outcome, summary):
     view = Frequencies(outcome)
     assert view.pane.object == ""
-    outcome.picture = picture("booted-block-low-mass")
-    natural = outcome.picture.solution.natural_frequencies
+    outcome.summary = summary("booted-block-low-mass")
+    natural = outcome.summary.solution.natural_frequencies
     for frequency in (natural.loaded_track, natural.coupled_block, natural.block_on_boot, *natural.cut_on):
         digits = f"{frequency:.1f}" if frequency < 100 else f"{frequency:.0f}"
         assert f">{digits} Hz<" in view.pane.object
 
 
-def test_a_single_stage_track_says_that_it_has_no_block(picture):
-    natural = picture("slab-track").solution.natural_frequencies
+def test_a_single_stage_track_says_that_it_has_no_block(summary):
+    natural = summary("slab-track").solution.natural_frequencies
     text = frequencies_html(natural)
     assert "one stage" in text
     assert "boot" not in text
 
 
-def test_all_pictures_are_redrawn_together(explore, outcome, picture):
-    view = explore(outcome, Presentation())
+def test_all_pictures_are_redrawn_together(explore, outcome, summary):
+    view = explore(outcome, GainDefinition())
     for preset in ("booted-block-low-mass", "slab-track"):
-        outcome.param.update(picture=picture(preset), preset_picture=picture("booted-sleeper"))
-        solution = picture(preset).solution
+        outcome.param.update(summary=summary(preset), preset_summary=summary("booted-sleeper"))
+        solution = summary(preset).solution
         np.testing.assert_array_equal(view.insertion_gain.bands.data["level"], solution.insertion_gain)
-        peak = picture(preset).total_force.max()
+        peak = summary(preset).total_force.max()
         assert view.force.samples.data["total"].max() == pytest.approx(peak, rel=1e-6)
         assert f"{solution.natural_frequencies.loaded_track:.1f}"[:3] in view.frequencies.pane.object
-    ghost = picture("booted-sleeper").solution.insertion_gain
+    ghost = summary("booted-sleeper").solution.insertion_gain
     np.testing.assert_array_equal(view.insertion_gain.bands.data["preset"], ghost)
 
 
-def test_a_view_made_late_shows_what_is_there(explore, outcome, picture):
-    outcome.picture = picture("slab-track")
-    view = explore(outcome, Presentation())
+def test_a_view_made_late_shows_what_is_there(explore, outcome, summary):
+    outcome.summary = summary("slab-track")
+    view = explore(outcome, GainDefinition())
     np.testing.assert_array_equal(
-        view.insertion_gain.bands.data["level"], outcome.picture.solution.insertion_gain
+        view.insertion_gain.bands.data["level"], outcome.summary.solution.insertion_gain
     )
 
 
-def test_the_choice_of_sum_and_reference_redraws_without_solving(explore, outcome, picture):
-    presentation = Presentation()
-    outcome.param.update(picture=picture("booted-sleeper"), preset_picture=picture("slab-track"))
-    view = explore(outcome, presentation)
+def test_the_choice_of_sum_and_reference_redraws_without_solving(explore, outcome, summary):
+    definition = GainDefinition()
+    outcome.param.update(summary=summary("booted-sleeper"), preset_summary=summary("slab-track"))
+    view = explore(outcome, definition)
     for choice in ({"summation": "coherent"}, {"reference": "rigid"}):
-        presentation.param.update(**choice)
-        chosen = {"reference": presentation.reference, "summation": presentation.summation}
+        definition.param.update(**choice)
+        chosen = {"reference": definition.reference, "summation": definition.summation}
         for column, name in (("level", "booted-sleeper"), ("preset", "slab-track")):
             expected = tig.solve(tig.PRESETS[name], **chosen).insertion_gain
             np.testing.assert_allclose(view.insertion_gain.bands.data[column], expected, atol=1e-9)
     assert view.insertion_gain.model.yaxis.axis_label == "IG, dB (coherent / rigid)"
 
 
-def test_observed_frequencies_stand_beside_the_computed_ones(picture):
-    natural = picture("booted-block-low-mass").solution.natural_frequencies
+def test_observed_frequencies_stand_beside_the_computed_ones(summary):
+    natural = summary("booted-block-low-mass").solution.natural_frequencies
     text = frequencies_html(dataclasses.replace(natural, observed_loaded_track=38.7))
     assert "Observed in the run: 38.7 Hz" in text
     assert "Observed in the run: 301 Hz" in text
@@ -183,42 +183,42 @@ def test_observed_frequencies_stand_beside_the_computed_ones(picture):
     assert frequencies_html(dataclasses.replace(natural, observed_coupled_block=None)).count("Observed") == 1
 
 
-def test_pins_that_are_shown_are_drawn_behind_the_design(explore, outcome, picture, make_pictures):
+def test_pins_that_are_shown_are_drawn_behind_the_design(explore, outcome, summary, make_pictures):
     pins, pinned = Pins(), make_pictures()
     one, other = pins.add_all([(preset_values(key), key) for key in ("slab-track", "booted-sleeper")])
-    outcome.picture = picture("booted-block-low-mass")
-    view = explore(outcome, Presentation(), pins, pinned)
+    outcome.summary = summary("booted-block-low-mass")
+    view = explore(outcome, GainDefinition(), pins, pinned)
     assert np.isnan(view.insertion_gain.pins.data["pin_0"]).all()
-    pinned.pictures = {one.key: picture("slab-track"), other.key: picture("booted-sleeper")}
+    pinned.summaries = {one.key: summary("slab-track"), other.key: summary("booted-sleeper")}
     for place, key in enumerate(("slab-track", "booted-sleeper")):
         drawn = view.insertion_gain.pins.data[f"pin_{place}"]
-        np.testing.assert_array_equal(drawn, picture(key).solution.insertion_gain)
-        peak = picture(key).total_force.max()
+        np.testing.assert_array_equal(drawn, summary(key).solution.insertion_gain)
+        peak = summary(key).total_force.max()
         assert view.force.pins[place].data["total"].max() == pytest.approx(peak, rel=1e-6)
     pins.show(one.key, shown=False)
     drawn = view.insertion_gain.pins.data["pin_0"]
-    np.testing.assert_array_equal(drawn, picture("booted-sleeper").solution.insertion_gain)
+    np.testing.assert_array_equal(drawn, summary("booted-sleeper").solution.insertion_gain)
     assert not len(view.force.pins[1].data["time"])
 
 
-def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, picture, make_pictures):
-    pins, presentation = Pins(), Presentation()
+def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, summary, make_pictures):
+    pins, definition = Pins(), GainDefinition()
     pins.add(preset_values("slab-track") | {"pad_stiffness": 500.0}, "of my own")
-    outcome.picture = picture("booted-block-low-mass")
-    view = explore(outcome, presentation, pins, make_pictures())
+    outcome.summary = summary("booted-block-low-mass")
+    view = explore(outcome, definition, pins, make_pictures())
     pins.show_table_1()
     assert [pin.design for pin in pins.shown] == list(tig.PRESETS.values())
     view = explore(
         outcome,
-        presentation,
+        definition,
         pins,
-        make_pictures(pictures={pin.key: picture(pin.values["preset"]) for pin in pins.shown}),
+        make_pictures(summaries={pin.key: summary(pin.values["preset"]) for pin in pins.shown}),
     )
     names = [item.label.value for item in view.insertion_gain.model.legend[0].items if item.visible]
     assert names == list(PRESET_LABELS.values())
     assert not any(marker.visible for marker in view.insertion_gain.model.select({"name": "loaded_track"}))
-    assert view.show_hand.visible
-    view.show_hand.param.trigger("clicks")
+    assert view.show_current.visible
+    view.show_current.param.trigger("clicks")
     assert not pins.alone
     names = [item.label.value for item in view.insertion_gain.model.legend[0].items if item.visible]
     assert names[0] == "this design"

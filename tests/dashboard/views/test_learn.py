@@ -9,15 +9,15 @@ import pytest
 import trackig_core as tig
 from dashboard import assets
 from dashboard.compute import questions as teacher_module
-from dashboard.compute.questions import Question, Teacher
-from dashboard.session.inputs import DesignInputs, Presentation
+from dashboard.compute.questions import Question, QuestionRunner
+from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.results import Outcome
 from dashboard.teaching.lessons import load_lessons
 from dashboard.views.learn import Learn
 from dashboard.views.lessons import Lessons
 from dashboard.views.method import Method, split
 from dashboard.views.motion import Motion
-from dashboard.views.subjects import Damping, Definitions, Ladder, Resonances, Slopes
+from dashboard.views.subjects import Damping, Definitions, LumpedVsBeam, Resonances, Slopes
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 
@@ -33,13 +33,13 @@ def _one_loop(monkeypatch):
 
 
 @pytest.fixture
-def outcome(picture):
-    return Outcome(picture=picture("booted-block-low-mass"))
+def outcome(summary):
+    return Outcome(summary=summary("booted-block-low-mass"))
 
 
 @pytest.fixture
-def presentation():
-    return Presentation()
+def definition():
+    return GainDefinition()
 
 
 @pytest.fixture
@@ -59,7 +59,7 @@ def test_nothing_is_worked_out_that_nobody_looks_at():
 
     async def session():
         question = Question()
-        Teacher(question)
+        QuestionRunner(question)
         question.asked = (asked.append, "early")
         await asyncio.sleep(0.05)
         assert asked == []
@@ -75,18 +75,18 @@ def test_nothing_is_worked_out_that_nobody_looks_at():
     asyncio.run(session())
 
 
-def test_why_there_is_no_answer_is_told(outcome, presentation, fake_picture):
-    subject = Slopes(outcome, presentation)
-    outcome.picture = fake_picture(BLOCK.replace(boot_loss_factor=0.0))
+def test_why_there_is_no_answer_is_told(outcome, definition, fake_picture):
+    subject = Slopes(outcome, definition)
+    outcome.summary = fake_picture(BLOCK.replace(boot_loss_factor=0.0))
     subject.question.looked_at = True
     assert "more than 0" in subject.problem.object
     assert subject.problem.visible
-    outcome.picture = fake_picture(BLOCK)
+    outcome.summary = fake_picture(BLOCK)
     assert not subject.problem.visible
 
 
-def test_subjects_are_made_and_put_on_the_page_when_first_looked_at(inputs, outcome, presentation):
-    learn = Learn(inputs, outcome, presentation)
+def test_subjects_are_made_and_put_on_the_page_when_first_looked_at(inputs, outcome, definition):
+    learn = Learn(inputs, outcome, definition)
     places = list(learn.menu.objects)
     assert not any(place.objects for place in places)
     learn.look(True)
@@ -103,12 +103,12 @@ def test_subjects_are_made_and_put_on_the_page_when_first_looked_at(inputs, outc
     assert not lessons.question.looked_at
 
 
-def test_the_sweep_s_point_moves_with_the_design(outcome, presentation, fake_picture, picture):
-    subject = looked_at(Resonances(outcome, presentation))
-    natural = picture("booted-block-low-mass").solution.natural_frequencies
+def test_the_sweep_s_point_moves_with_the_design(outcome, definition, fake_picture, summary):
+    subject = looked_at(Resonances(outcome, definition))
+    natural = summary("booted-block-low-mass").solution.natural_frequencies
     assert subject.figure.present.data["value"] == [28.0, 28.0]
     assert subject.figure.present.data["frequency"] == [natural.loaded_track, natural.coupled_block]
-    outcome.picture = fake_picture(BLOCK.replace(boot_stiffness=14e6))
+    outcome.summary = fake_picture(BLOCK.replace(boot_stiffness=14e6))
     assert subject.figure.present.data["value"][0] == 14.0
     sweep = subject.figure.sweep.data
     # the beam's curve passes through the beam's own point
@@ -119,17 +119,17 @@ def test_the_sweep_s_point_moves_with_the_design(outcome, presentation, fake_pic
     assert "wheel mass" in subject.figure.model.xaxis.axis_label
 
 
-def test_a_single_stage_track_is_swept_by_what_it_has(outcome, presentation, picture):
-    subject = looked_at(Resonances(outcome, presentation))
-    outcome.picture = picture("slab-track")
+def test_a_single_stage_track_is_swept_by_what_it_has(outcome, definition, summary):
+    subject = looked_at(Resonances(outcome, definition))
+    outcome.summary = summary("slab-track")
     assert subject.field.value == "pad_stiffness"
     assert "boot_stiffness" not in subject.field.options.values()
     assert len(subject.figure.present.data["value"]) == 1
     assert np.isnan(subject.figure.sweep.data["upper"]).all()
 
 
-def test_asymptotes_are_drawn_on_demand(outcome, presentation):
-    subject = looked_at(Slopes(outcome, presentation))
+def test_asymptotes_are_drawn_on_demand(outcome, definition):
+    subject = looked_at(Slopes(outcome, definition))
     lines = subject.figure.lines.data
     own = tig.gain_asymptotes(BLOCK)
     assert lines["y1"][: len(own)] == [line.level[1] for line in own]
@@ -138,25 +138,25 @@ def test_asymptotes_are_drawn_on_demand(outcome, presentation):
     subject.toggle.value = False
     assert not any(renderer.visible for renderer in subject.figure.drawn)
     assert "<td>−24 dB per octave</td>" in subject.table.object
-    presentation.summation = "coherent"
+    definition.summation = "coherent"
     exact = tig.solve(BLOCK, "exact", summation="coherent").insertion_gain
     np.testing.assert_allclose(subject.figure.bands.data["level"], exact, atol=1e-9)
 
 
-def test_three_loss_factors_are_overlaid(outcome, presentation, picture):
-    subject = looked_at(Damping(outcome, presentation))
+def test_three_loss_factors_are_overlaid(outcome, definition, summary):
+    subject = looked_at(Damping(outcome, definition))
     expected = tig.gain_by_loss_factor(BLOCK)
     for number in range(3):
         np.testing.assert_allclose(subject.gain.bands.data[f"loss_{number}"], expected[number])
     pad, boot = tig.damping_curves(BLOCK, subject.stiffness.values.data["frequency"])
     np.testing.assert_allclose(subject.stiffness.values.data["boot"], boot.stiffness)
     np.testing.assert_allclose(subject.loss_factor.values.data["pad"], pad.loss_factor)
-    outcome.picture = picture("slab-track")
+    outcome.summary = summary("slab-track")
     assert np.isnan(subject.stiffness.values.data["boot"]).all()
 
 
-def test_four_definitions_and_the_false_peak_are_drawn(outcome, presentation):
-    subject = looked_at(Definitions(outcome, presentation))
+def test_four_definitions_and_the_false_peak_are_drawn(outcome, definition):
+    subject = looked_at(Definitions(outcome, definition))
     rigid = tig.solve(BLOCK, "exact", reference="rigid").insertion_gain
     np.testing.assert_allclose(subject.four.bands.data["energy_rigid"], rigid, atol=1e-9)
     drawn = subject.references.levels.data
@@ -165,42 +165,42 @@ def test_four_definitions_and_the_false_peak_are_drawn(outcome, presentation):
     assert np.abs(drawn["stiffened"]).max() < 0.3
 
 
-def test_the_ladder_shades_the_bands_that_agree(outcome, presentation):
-    subject = looked_at(Ladder(outcome, presentation))
+def test_the_ladder_shades_the_bands_that_agree(outcome, definition):
+    subject = looked_at(LumpedVsBeam(outcome, definition))
     comparison = tig.compare_with_beam(BLOCK)
     np.testing.assert_allclose(subject.figure.bands.data["chain"], comparison.lumped)
     np.testing.assert_allclose(subject.figure.good.data["left"], tig.BAND_EDGES[:-1][comparison.good_enough])
 
 
-def test_motion_follows_the_design_when_it_rests(outcome, presentation, fake_picture):
-    subject = looked_at(Motion(outcome, presentation))
+def test_motion_follows_the_design_when_it_rests(outcome, definition, fake_picture):
+    subject = looked_at(Motion(outcome, definition))
     np.testing.assert_allclose(subject.film.film.data["wheel"], 1e6 * tig.film(BLOCK).wheel, rtol=1e-6)
     softer = BLOCK.replace(boot_stiffness=14e6)
-    outcome.picture = fake_picture(softer, fidelity="live")
+    outcome.summary = fake_picture(softer, fidelity="live")
     np.testing.assert_allclose(subject.film.film.data["wheel"], 1e6 * tig.film(BLOCK).wheel, rtol=1e-6)
     moving = tig.steady_shape(softer, subject.pick.cursor.location)
     np.testing.assert_allclose(subject.shape.wheel.data["real"], moving.wheel.real)
-    outcome.picture = fake_picture(softer)
+    outcome.summary = fake_picture(softer)
     np.testing.assert_allclose(subject.film.film.data["wheel"], 1e6 * tig.film(softer).wheel, rtol=1e-6)
 
 
-def test_the_shape_follows_cursor_slider_and_buttons(outcome, presentation):
-    subject = looked_at(Motion(outcome, presentation))
+def test_the_shape_follows_cursor_slider_and_buttons(outcome, definition):
+    subject = looked_at(Motion(outcome, definition))
     subject.pick.cursor.location = 63.0
     np.testing.assert_allclose(subject.shape.wheel.data["imag"], tig.steady_shape(BLOCK, 63.0).wheel.imag)
     assert "At 63.0 Hz" in subject.shape_words.object
     subject.frequency.value = 150
     assert subject.pick.cursor.location == pytest.approx(tig.BAND_EDGES[0] * 10**1.5)
     subject.jumps[1].clicks += 1
-    natural = outcome.picture.solution.natural_frequencies
+    natural = outcome.summary.solution.natural_frequencies
     assert subject.pick.cursor.location == natural.loaded_track
     subject.jumps[2].clicks += 1
     assert subject.pick.cursor.location == natural.coupled_block
 
 
 @pytest.mark.parametrize("number", range(6))
-def test_each_lesson_asks_and_reveals(outcome, presentation, inputs, number):
-    subject = looked_at(Lessons(outcome, presentation, inputs))
+def test_each_lesson_asks_and_reveals(outcome, definition, inputs, number):
+    subject = looked_at(Lessons(outcome, definition, inputs))
     lesson = load_lessons()[0][number]
     subject.menu.value = lesson
     assert subject.answers.options == [choice.text for choice in lesson.choices]
@@ -220,8 +220,8 @@ def test_each_lesson_asks_and_reveals(outcome, presentation, inputs, number):
     assert not subject.broken.visible
 
 
-def test_a_lesson_sets_sliders_and_locks_none(outcome, presentation, inputs):
-    subject = looked_at(Lessons(outcome, presentation, inputs))
+def test_a_lesson_sets_sliders_and_locks_none(outcome, definition, inputs):
+    subject = looked_at(Lessons(outcome, definition, inputs))
     lesson = subject.menu.value
     inputs.preset = "slab-track"
     subject.begin.clicks += 1
@@ -232,12 +232,12 @@ def test_a_lesson_sets_sliders_and_locks_none(outcome, presentation, inputs):
     assert inputs.boot_stiffness == 50
 
 
-def test_a_broken_lesson_is_told_and_the_rest_can_be_read(outcome, presentation, inputs, tmp_path):
+def test_a_broken_lesson_is_told_and_the_rest_can_be_read(outcome, definition, inputs, tmp_path):
     (tmp_path / "1-bad.md").write_text("no front matter <script>alert(1)</script>")
     good = next(path for path in sorted(assets.LESSONS.glob("*.md")))
     (tmp_path / "2-good.md").write_text(good.read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "<img src=x onerror=alert(1)>.md").write_text("+++\n")
-    subject = looked_at(Lessons(outcome, presentation, inputs, tmp_path))
+    subject = looked_at(Lessons(outcome, definition, inputs, tmp_path))
     assert len(subject.menu.options) == 1
     assert subject.broken.visible
     assert "1&#45;bad.md, line 1" in subject.broken.object
@@ -245,30 +245,30 @@ def test_a_broken_lesson_is_told_and_the_rest_can_be_read(outcome, presentation,
     assert "<script" not in subject.broken.object
 
 
-def test_what_a_lesson_holds_is_text_and_fetches_nothing(outcome, presentation, inputs, tmp_path):
+def test_what_a_lesson_holds_is_text_and_fetches_nothing(outcome, definition, inputs, tmp_path):
     text = sorted(assets.LESSONS.glob("*.md"))[0].read_text(encoding="utf-8")
     hostile = text.replace("## Reveal", "![x](https://example.org/x.png) <b onclick=x>b</b>\n\n## Reveal")
     (tmp_path / "x.md").write_text(re.sub('question = ".', 'question = "![x](//e.org) <i>', hostile), "utf-8")
-    subject = looked_at(Lessons(outcome, presentation, inputs, tmp_path))
+    subject = looked_at(Lessons(outcome, definition, inputs, tmp_path))
     assert "![" not in subject.introduction.object
     assert subject.introduction.renderer_options == {"html": False}
     assert not set("<[") & set(subject.asked.object)
 
 
-def test_no_lessons_at_all_give_a_message(outcome, presentation, inputs, tmp_path):
-    subject = looked_at(Lessons(outcome, presentation, inputs, tmp_path))
+def test_no_lessons_at_all_give_a_message(outcome, definition, inputs, tmp_path):
+    subject = looked_at(Lessons(outcome, definition, inputs, tmp_path))
     assert "no lessons here" in subject.broken.object
     assert subject.reveal.disabled
 
 
-def test_a_lesson_that_the_solver_contradicts_says_so(outcome, presentation, inputs, tmp_path):
+def test_a_lesson_that_the_solver_contradicts_says_so(outcome, definition, inputs, tmp_path):
     good = sorted(assets.LESSONS.glob("*.md"))[0].read_text(encoding="utf-8")
     wrong = re.sub(
         r'"insertion_gain\(63\) falls by [^"]*"', '"insertion_gain(63) rises by at least 3 dB"', good
     )
     assert wrong != good
     (tmp_path / "wrong.md").write_text(wrong, encoding="utf-8")
-    subject = looked_at(Lessons(outcome, presentation, inputs, tmp_path))
+    subject = looked_at(Lessons(outcome, definition, inputs, tmp_path))
     assert "finds this claim false" in subject.broken.object
 
 

@@ -6,8 +6,8 @@ import re
 import pytest
 
 import trackig_core as tig
-from dashboard.views.keep import Keep
-from dashboard.views.level import LevelView
+from dashboard.views.received_level import ReceivedLevel
+from dashboard.views.save_and_share import SaveAndShare
 from dashboard.views.specification import SpecificationView
 from dashboard.views.verdict import ShortVerdict
 
@@ -35,7 +35,7 @@ def exchange():
 @pytest.fixture
 def view(session, exchange):
     session.show("booted-block-low-mass")
-    made = SpecificationView(session.workshop, exchange)
+    made = SpecificationView(session.assessment, exchange)
     made.look(True)
     return made
 
@@ -43,17 +43,17 @@ def view(session, exchange):
 @pytest.fixture
 def level(session, exchange):
     session.show("booted-block-low-mass")
-    made = LevelView(session.workshop, session.pins, exchange)
+    made = ReceivedLevel(session.assessment, session.pins, exchange)
     made.look(True)
     return made
 
 
 def limits(session):
-    return dict(session.workshop.specification.points)
+    return dict(session.assessment.specification.points)
 
 
 def type_in(view, label, text):
-    view.editor.grid.heed({"kind": "typed", "band": tig.BAND_LABELS.index(label), "text": text})
+    view.editor.grid.handle_message({"kind": "typed", "band": tig.BAND_LABELS.index(label), "text": text})
 
 
 def test_limits_are_typed_changed_and_taken_out(session, view):
@@ -65,7 +65,7 @@ def test_limits_are_typed_changed_and_taken_out(session, view):
     type_in(view, "80", "")
     assert limits(session) == {63.0: -4.0}
     type_in(view, "63", "  ")
-    assert session.workshop.specification is None
+    assert session.assessment.specification is None
 
 
 @pytest.mark.parametrize("typed", ["abc", "1e3", "101", "nan", "9" * 5000, HOSTILE])
@@ -104,12 +104,12 @@ def test_files_tables_and_columns_are_taken(session, view, exchange):
     assert limits(session) == {63.0: -3.0, 80.0: -4.5}
     assert view.editor.pasted.value == ""
     place = tig.BAND_LABELS.index("100")
-    view.editor.grid.heed({"kind": "pasted", "band": place, "text": "-6\n-7\n"})
+    view.editor.grid.handle_message({"kind": "pasted", "band": place, "text": "-6\n-7\n"})
     assert limits(session) == {63.0: -3.0, 80.0: -4.5, 100.0: -6.0, 125.0: -7.0}
-    view.editor.grid.heed({"kind": "pasted", "band": 20, "text": "1\n2\n"})
+    view.editor.grid.handle_message({"kind": "pasted", "band": 20, "text": "1\n2\n"})
     assert "1 at most from 500 Hz on" in view.editor.message.object
     view.editor.clear.param.trigger("clicks")
-    assert session.workshop.specification is None
+    assert session.assessment.specification is None
 
 
 def test_template_and_table_are_saved_as_they_are_read(session, view, exchange):
@@ -120,55 +120,55 @@ def test_template_and_table_are_saved_as_they_are_read(session, view, exchange):
     )
     type_in(view, "63", "-3.25")
     view.editor.save.param.trigger("clicks")
-    assert tig.Specification.from_csv(exchange.saved[-1][1]) == session.workshop.specification
+    assert tig.Specification.from_csv(exchange.saved[-1][1]) == session.assessment.specification
 
 
 def test_the_verdict_names_every_design_in_words(session, view):
     session.pin("slab-track", HOSTILE)
-    session.workshop.specification = tig.Specification([(160, 0.0)])
+    session.assessment.specification = tig.Specification([(160, 0.0)])
     text = view.verdict.object
     assert "<img" not in text
-    for each in session.workshop.assessed:
+    for each in session.assessment.assessed:
         assert str(each.verdict) in text
         assert each.colour in text
-    assert [each.verdict.complies for each in session.workshop.assessed] == [True, False]
+    assert [each.verdict.complies for each in session.assessment.assessed] == [True, False]
     hand, slab = view.editor.grid.designs
     band = tig.BAND_LABELS.index("160")
     assert hand["parts"][0]["cells"][band][1] is False
-    margin = session.workshop.assessed[1].verdict.margins[band]
+    margin = session.assessment.assessed[1].verdict.margins[band]
     assert slab["parts"][1]["cells"][band] == [f"✗ −{abs(margin):.1f}", True]
     assert slab["parts"][1]["cells"][0] == ["", False]
 
 
 def test_a_margin_that_rounds_to_nothing_still_fails_in_the_table(session, view):
-    gain = session.workshop.assessed[0].levels[0]
-    session.workshop.specification = tig.Specification([(5, float(gain) - 0.001)])
+    gain = session.assessment.assessed[0].levels[0]
+    session.assessment.specification = tig.Specification([(5, float(gain) - 0.001)])
     cell = view.editor.grid.designs[0]["parts"][1]["cells"][0]
     assert cell == ["✗ −0.0", True]
     assert "fails by 0.001 dB" in view.verdict.object
 
 
 def test_nothing_is_drawn_while_nobody_looks(session, exchange):
-    view = SpecificationView(session.workshop, exchange)
+    view = SpecificationView(session.assessment, exchange)
     session.show("slab-track")
-    session.workshop.specification = tig.Specification([(63, 0.0)])
+    session.assessment.specification = tig.Specification([(63, 0.0)])
     assert view.editor.grid.designs == []
     view.look(True)
     assert len(view.editor.grid.designs) == 1
 
 
 def test_the_short_verdict_is_seen_once_there_is_one(session):
-    short = ShortVerdict(session.workshop)
+    short = ShortVerdict(session.assessment)
     session.show("slab-track")
     assert short.pane.object == ""
-    session.workshop.specification = tig.Specification([(63, 0.0)])
-    assert str(session.workshop.assessed[0].verdict) in short.pane.object
+    session.assessment.specification = tig.Specification([(63, 0.0)])
+    assert str(session.assessment.assessed[0].verdict) in short.pane.object
 
 
 def test_levels_stand_with_their_difference_from_the_base(session, level):
     source = tig.SourceSpectrum([(31.5, 60.0), (63, 70.5), (125, 65.0)])
     pin = session.pin("slab-track", HOSTILE)
-    session.workshop.source = source
+    session.assessment.source = source
     level.base.value = pin.key
     assert session.pins.base == pin.key
     text = level.table.object
@@ -185,44 +185,44 @@ def test_levels_stand_with_their_difference_from_the_base(session, level):
 def test_a_source_at_fault_changes_nothing(session, level, exchange):
     type_in(level, "63", "70.5")
     exchange.openers["source"](b"frequency_hz,level_db\n63,999\n")
-    assert session.workshop.source.points == ((63.0, 70.5),)
+    assert session.assessment.source.points == ((63.0, 70.5),)
     assert "line 2, column 2" in level.editor.message.object
 
 
-def test_a_study_is_saved_under_its_name_and_opened_again(session, exchange, picture):
+def test_a_study_is_saved_under_its_name_and_opened_again(session, exchange, summary):
     session.show("booted-sleeper")
-    session.workshop.specification = tig.Specification([(63, 0.0)])
-    view = Keep(session.keeping, exchange)
+    session.assessment.specification = tig.Specification([(63, 0.0)])
+    view = SaveAndShare(session.snapshot, exchange)
     view.study_name.value = "Tunnel 7"
     view.save.param.trigger("clicks")
     name, text, _ = exchange.saved[-1]
     assert name == "trackig-tunnel-7.toml"
-    other = type(session)(picture)
-    Keep(other.keeping, exchange)
+    other = type(session)(summary)
+    SaveAndShare(other.snapshot, exchange)
     exchange.openers["study"](text.encode())
-    assert other.keeping.study() == session.keeping.study()
-    assert other.workshop.title == "Tunnel 7"
+    assert other.snapshot.study() == session.snapshot.study()
+    assert other.assessment.title == "Tunnel 7"
 
 
 def test_a_name_that_is_none_is_told_and_not_taken(session, exchange):
-    view = Keep(session.keeping, exchange)
+    view = SaveAndShare(session.snapshot, exchange)
     view.study_name.value = "   "
     assert view.study_name.error_state
-    assert session.workshop.title == tig.Study.name
+    assert session.assessment.title == tig.Study.name
 
 
 def test_a_study_at_fault_is_told_without_markup_and_changes_nothing(session, exchange):
-    view = Keep(session.keeping, exchange)
-    before = session.keeping.study()
+    view = SaveAndShare(session.snapshot, exchange)
+    before = session.snapshot.study()
     text = before.to_toml().replace('name = "Study"', f"name = '{HOSTILE * 9}'")
     exchange.openers["study"](text.encode())
     assert "Not opened, nothing has changed" in view.message.object
     assert "<img" not in view.message.object
-    assert session.keeping.study() == before
+    assert session.snapshot.study() == before
 
 
 def test_there_is_nothing_to_download_before_a_picture_is_there(session, exchange):
-    view = Keep(session.keeping, exchange)
+    view = SaveAndShare(session.snapshot, exchange)
     assert view.gain.disabled
     session.show("slab-track")
     assert not view.gain.disabled
@@ -231,17 +231,17 @@ def test_there_is_nothing_to_download_before_a_picture_is_there(session, exchang
 def test_the_report_shows_what_is_on_screen(session, exchange):
     session.show("booted-sleeper")
     session.pin("slab-track", HOSTILE)
-    session.workshop.specification = tig.Specification([(63, 0.0)])
-    view = Keep(session.keeping, exchange)
+    session.assessment.specification = tig.Specification([(63, 0.0)])
+    view = SaveAndShare(session.snapshot, exchange)
     asyncio.run(view._save_report())
     name, text, kind = exchange.saved[-1]
     assert (name, kind) == ("trackig-study-report.html", "text/html")
-    assert str(session.workshop.assessed[0].verdict) in text
+    assert str(session.assessment.assessed[0].verdict) in text
     assert "<img" not in text
     assert not view.report.loading
 
 
 def test_a_report_without_a_picture_is_refused_in_words(session, exchange):
-    view = Keep(session.keeping, exchange)
+    view = SaveAndShare(session.snapshot, exchange)
     asyncio.run(view._save_report())
     assert exchange.saved == []

@@ -9,9 +9,9 @@ import pytest
 
 import trackig_core as tig
 from dashboard.compute import checker as checker_module
-from dashboard.compute.checker import Checker, check
-from dashboard.session.inputs import Presentation
-from dashboard.session.results import Checked, Outcome
+from dashboard.compute.checker import VerificationRunner, check
+from dashboard.session.inputs import GainDefinition
+from dashboard.session.results import Outcome, VerifiedSummary
 from dashboard.views.verify import Verify, largest
 
 
@@ -22,78 +22,78 @@ def outcome():
 
 @pytest.fixture
 def view(outcome):
-    return Verify(outcome, Presentation())
+    return Verify(outcome, GainDefinition())
 
 
-def test_nothing_is_checked_that_nobody_looks_at(outcome, picture, monkeypatch):
+def test_nothing_is_checked_that_nobody_looks_at(outcome, summary, monkeypatch):
     asked = []
     monkeypatch.setattr(
-        checker_module, "check", lambda shown: asked.append(shown) or Checked(shown, None, "x")
+        checker_module, "check", lambda shown: asked.append(shown) or VerifiedSummary(shown, None, "x")
     )
 
     async def session():
-        Checker(outcome)
-        outcome.picture = picture("slab-track")
+        VerificationRunner(outcome)
+        outcome.summary = summary("slab-track")
         await asyncio.sleep(0.05)
         assert asked == []
-        outcome.checking = True
+        outcome.verifying = True
         await asyncio.sleep(0.2)
-        assert asked == [picture("slab-track")]
-        outcome.picture = picture("booted-sleeper")
+        assert asked == [summary("slab-track")]
+        outcome.summary = summary("booted-sleeper")
         await asyncio.sleep(0.2)
-        assert outcome.checked.picture is picture("booted-sleeper")
+        assert outcome.verified.summary is summary("booted-sleeper")
 
     asyncio.run(session())
 
 
-def test_only_the_newest_picture_is_checked_next(outcome, picture, monkeypatch):
+def test_only_the_newest_picture_is_checked_next(outcome, summary, monkeypatch):
     go_on, asked = threading.Event(), []
 
     def slow(shown):
         asked.append(shown)
         go_on.wait(10)
-        return Checked(shown, None, "x")
+        return VerifiedSummary(shown, None, "x")
 
     monkeypatch.setattr(checker_module, "check", slow)
 
     async def session():
-        Checker(outcome)
-        outcome.param.update(picture=picture("slab-track"), checking=True)
+        VerificationRunner(outcome)
+        outcome.param.update(summary=summary("slab-track"), verifying=True)
         while not asked:
             await asyncio.sleep(0.01)
         for name in ("booted-sleeper", "booted-block-low-mass", "booted-block-high-mass"):
-            outcome.picture = picture(name)
+            outcome.summary = summary(name)
         await asyncio.sleep(0.05)
         go_on.set()
-        while outcome.checked is None or outcome.checked.picture is not outcome.picture:
+        while outcome.verified is None or outcome.verified.summary is not outcome.summary:
             await asyncio.sleep(0.01)
 
     asyncio.run(asyncio.wait_for(session(), 20))
-    assert asked == [picture("slab-track"), picture("booted-block-high-mass")]
+    assert asked == [summary("slab-track"), summary("booted-block-high-mass")]
 
 
-def test_a_check_is_the_librarys(picture):
-    shown = picture("booted-sleeper")
-    checked = check(shown)
-    assert checked.problem == ""
+def test_a_check_is_the_librarys(summary):
+    shown = summary("booted-sleeper")
+    verified = check(shown)
+    assert verified.problem == ""
     expected = tig.verify(shown.solution)
-    np.testing.assert_array_equal(checked.theory.exact.energy, expected.exact.energy)
-    assert check(shown) is checked
+    np.testing.assert_array_equal(verified.theory.exact.energy, expected.exact.energy)
+    assert check(shown) is verified
 
 
 def test_a_track_without_exact_answer_says_why(outcome, view, fake_picture):
     without = tig.PRESETS["slab-track"].replace(pad_loss_factor=0.0)
-    outcome.checked = check(fake_picture(without))
+    outcome.verified = check(fake_picture(without))
     assert "more than 0" in view.words["run"].object
 
 
 @pytest.mark.parametrize("preset", ["booted-block-low-mass", "slab-track"])
-def test_run_and_exact_answer_are_drawn_with_their_difference_in_words(outcome, view, picture, preset):
-    outcome.checked = check(picture(preset))
+def test_run_and_exact_answer_are_drawn_with_their_difference_in_words(outcome, view, summary, preset):
+    outcome.verified = check(summary(preset))
     exact = tig.solve(tig.PRESETS[preset], "exact").insertion_gain
     data = view.comparison.bands.data
     np.testing.assert_allclose(data["exact"], exact, atol=1e-9)
-    np.testing.assert_allclose(data["run"], picture(preset).solution.insertion_gain, atol=1e-9)
+    np.testing.assert_allclose(data["run"], summary(preset).solution.insertion_gain, atol=1e-9)
     np.testing.assert_allclose(data["difference"], data["run"] - data["exact"])
     ends = view.difference.model.y_range
     assert ends.start < data["difference"].min()
@@ -104,11 +104,11 @@ def test_run_and_exact_answer_are_drawn_with_their_difference_in_words(outcome, 
     assert band == tig.BAND_LABELS[worst]
 
 
-def test_the_checks_follow_the_choice_of_sum_and_reference(outcome, picture):
-    presentation = Presentation()
-    view = Verify(outcome, presentation)
-    outcome.checked = check(picture("booted-sleeper"))
-    presentation.param.update(reference="rigid", summation="coherent")
+def test_the_checks_follow_the_choice_of_sum_and_reference(outcome, summary):
+    definition = GainDefinition()
+    view = Verify(outcome, definition)
+    outcome.verified = check(summary("booted-sleeper"))
+    definition.param.update(reference="rigid", summation="coherent")
     expected = tig.solve(tig.PRESETS["booted-sleeper"], "exact", reference="rigid", summation="coherent")
     np.testing.assert_allclose(view.comparison.bands.data["exact"], expected.insertion_gain, atol=1e-9)
     assert "coherent / rigid" in view.comparison.model.yaxis.axis_label
@@ -136,10 +136,10 @@ def test_the_peer_stands_beside_the_twin(view, preset):
     assert 0 < said < 0.07
 
 
-def test_convergence_is_drawn_with_its_slopes(outcome, view, picture):
-    shown = picture("booted-sleeper")
-    outcome.checked = check(shown)
-    theory, grid = outcome.checked.theory, shown.solution.grid
+def test_convergence_is_drawn_with_its_slopes(outcome, view, summary):
+    shown = summary("booted-sleeper")
+    outcome.verified = check(shown)
+    theory, grid = outcome.verified.theory, shown.solution.grid
     steps = view.time_step.errors.data
     np.testing.assert_array_equal(steps["first"], theory.first_order_errors)
     np.testing.assert_array_equal(steps["second"], theory.second_order_errors)
@@ -151,14 +151,14 @@ def test_convergence_is_drawn_with_its_slopes(outcome, view, picture):
     assert view.element.model.select_one({"name": "run_element"}).location == pytest.approx(250)
 
 
-def test_damping_is_drawn_against_what_was_stated(outcome, view, picture):
-    outcome.checked = check(picture("booted-sleeper"))
+def test_damping_is_drawn_against_what_was_stated(outcome, view, summary):
+    outcome.verified = check(summary("booted-sleeper"))
     loss, stiffness = view.loss_factor.values.data, view.stiffness.values.data
     assert np.abs(loss["pad"] / 0.2 - 1).max() < 0.051
     np.testing.assert_array_equal(loss["boot_stated"], 0.2)
     at_50 = np.interp(50, stiffness["frequency"], stiffness["boot"])
     assert at_50 == pytest.approx(1, abs=1e-3)
     assert "within 4.9%" in view.words["damping"].object
-    outcome.checked = check(picture("slab-track"))
+    outcome.verified = check(summary("slab-track"))
     assert np.isnan(view.loss_factor.values.data["boot"]).all()
     np.testing.assert_array_equal(view.loss_factor.values.data["pad_stated"], 0.15)

@@ -20,12 +20,12 @@ from dashboard.views.components import PAPER, caption
 from trackig_core.names import LONGEST_TITLE, allowed, is_name
 
 
-class Keep(Viewer):
+class SaveAndShare(Viewer):
     """Link, study, downloads and report.
 
     Parameters
     ----------
-    keeping : Keeping
+    snapshot : SessionSnapshot
         What is kept.
     exchange : Exchange
         Where it goes.
@@ -33,12 +33,12 @@ class Keep(Viewer):
 
     title = "Keep"
 
-    def __init__(self, keeping, exchange):
+    def __init__(self, snapshot, exchange):
         super().__init__()
-        self._keeping, self._exchange, self._workshop = keeping, exchange, keeping.workshop
+        self._snapshot, self._exchange, self._assessment = snapshot, exchange, snapshot.assessment
         self.study_name = pmui.TextInput(
             label="Name of the study",
-            value=self._workshop.title,
+            value=self._assessment.title,
             max_length=LONGEST_TITLE,
             size="small",
             width=320,
@@ -59,8 +59,8 @@ class Keep(Viewer):
             for form in ("png", "svg")
         ]
         self.study_name.param.watch(self._rename, "value")
-        self._workshop.param.watch(self._show_name, "title")
-        self._workshop.param.watch(self._enable, "assessed")
+        self._assessment.param.watch(self._show_name, "title")
+        self._assessment.param.watch(self._enable, "assessed")
         exchange.on_file("study", self._open_study)
         self._enable()
 
@@ -68,26 +68,26 @@ class Keep(Viewer):
         title = event.new.strip()
         if is_name(title, LONGEST_TITLE):
             self.study_name.param.update(error_state=False, helper_text="")
-            self._workshop.title = title
+            self._assessment.title = title
         else:
             self.study_name.param.update(error_state=True, helper_text=f"give {allowed(LONGEST_TITLE)}")
 
     def _show_name(self, *_):
-        self.study_name.param.update(value=self._workshop.title, error_state=False, helper_text="")
+        self.study_name.param.update(value=self._assessment.title, error_state=False, helper_text="")
 
     def _enable(self, *_):
         for each in (self.gain, self.force, self.report):
-            each.disabled = not self._workshop.shown
+            each.disabled = not self._assessment.shown
 
     def _file(self, suffix):
-        return file_name(self._workshop.title, suffix)
+        return file_name(self._assessment.title, suffix)
 
     def _save_study(self, *_):
-        self._exchange.save(self._file(".toml"), self._keeping.study().to_toml(), "application/toml")
+        self._exchange.save(self._file(".toml"), self._snapshot.study().to_toml(), "application/toml")
 
     def _open_study(self, data):
         try:
-            self._keeping.open(data)
+            self._snapshot.open(data)
         except tig.StudyError as error:
             words = f"Not opened, nothing has changed: {error}."
             self.message.object = f'<div role="alert">{html.escape(words)}</div>'
@@ -96,18 +96,18 @@ class Keep(Viewer):
             tell("success", "The study is open.")
 
     def _save_gain(self, *_):
-        self._exchange.save(self._file("gain.csv"), gain_csv(self._workshop.shown))
+        self._exchange.save(self._file("gain.csv"), gain_csv(self._assessment.shown))
 
     def _save_force(self, *_):
-        self._exchange.save(self._file("force.csv"), force_csv(self._workshop.shown))
+        self._exchange.save(self._file("force.csv"), force_csv(self._assessment.shown))
 
     async def _save_report(self, *_):
-        study, title = self._keeping.study(), self._file("report.html")
-        pictures = {each.picture.design: each.picture for each in self._workshop.assessed}
+        study, title = self._snapshot.study(), self._file("report.html")
+        summaries = {each.summary.design: each.summary for each in self._assessment.assessed}
         self.report.loading = True
         try:
             loop = asyncio.get_running_loop()
-            report = await loop.run_in_executor(workers(), write_report, study, pictures)
+            report = await loop.run_in_executor(workers(), write_report, study, summaries)
         except ValueError:
             tell("warning", NOT_SOLVED)
         else:
@@ -134,12 +134,12 @@ class Keep(Viewer):
         )
 
 
-def write_report(study, pictures):
+def write_report(study, summaries):
     """Return the report of a study, as of today (str)."""
     # plots are slow to load, and nobody waits for them who wants no report
     from dashboard.report.html_report import html_report
 
-    return html_report(study, pictures, date=datetime.date.today(), version=tig.__version__)
+    return html_report(study, summaries, date=datetime.date.today(), version=tig.__version__)
 
 
 def copy_button():

@@ -12,15 +12,15 @@ from panel.viewable import Viewer
 
 from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
-from dashboard.views.components import HAND, HAND_NAME, PAPER, caption, swatch_svg
+from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption, swatch_svg
 
 
-class LevelView(Viewer):
+class ReceivedLevel(Viewer):
     """A source on the reference track, and its level with every design.
 
     Parameters
     ----------
-    workshop : Workshop
+    assessment : Assessment
         What is edited and shown.
     pins : Pins
         Whose base of differences is chosen.
@@ -30,13 +30,13 @@ class LevelView(Viewer):
 
     title = "Level"
 
-    def __init__(self, workshop, pins, exchange):
+    def __init__(self, assessment, pins, exchange):
         super().__init__()
         self._in_sight = False
-        self._workshop, self._pins = workshop, pins
+        self._assessment, self._pins = assessment, pins
         self.base = pn.widgets.Select(
             label="Difference from",
-            options={HAND_NAME: HAND},
+            options={CURRENT_NAME: CURRENT},
             width=240,
             margin=(4, 12, 6, 12),
             stylesheets=[theme.SELECT_CSS],
@@ -45,15 +45,15 @@ class LevelView(Viewer):
             "", stylesheets=[theme.LEVELS_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
         )
         self.editor = BandEditor(
-            workshop, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
+            assessment, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
         )
         self.base.param.watch(self._choose, "value")
         pins.param.watch(self._show, ["pinned", "base"])
-        workshop.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, "assessed")
 
     def _offer(self):
-        options = {HAND_NAME: HAND} | {pin.name: pin.key for pin in self._pins.pinned}
-        self.base.param.update(options=options, value=self._pins.base or HAND)
+        options = {CURRENT_NAME: CURRENT} | {pin.name: pin.key for pin in self._pins.pinned}
+        self.base.param.update(options=options, value=self._pins.base or CURRENT)
 
     def _choose(self, event):
         self._pins.choose_base(event.new or None)
@@ -68,8 +68,12 @@ class LevelView(Viewer):
         if not self._in_sight:
             return
         self._offer()
-        self.table.object = levels_html(self._workshop.shown, self._workshop.source, self._workshop.base)
-        self.editor.grid.designs = [_design(each) for each in self._workshop.shown if each.level is not None]
+        self.table.object = levels_html(
+            self._assessment.shown, self._assessment.source, self._assessment.base
+        )
+        self.editor.grid.designs = [
+            _design(each) for each in self._assessment.shown if each.level is not None
+        ]
 
     def __panel__(self):
         """Return what is put on the page."""
