@@ -20,6 +20,7 @@ from pathlib import Path
 
 import trackig_core as tig
 from dashboard import formats
+from dashboard.session.pins import base_design, shown_designs
 from dashboard.session.results import SolutionSummary
 from trackig_core.levels import band_tables
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
@@ -286,7 +287,7 @@ def _check(options):
             f"{options.study}: the study has no specification; add one, or give --specification FILE.csv"
         )
     complies = True
-    for pinned in opened.shown:
+    for pinned in shown_designs(opened):
         view = opened.view
         solution = tig.solve(
             pinned.design, options.fidelity, reference=view.reference, summation=view.summation
@@ -305,7 +306,7 @@ def _report(options):
     _refuse_to_lose(options.output, options.force, options.study)
     summaries = {
         design: _summary(design, options.fidelity)
-        for design in {each.design for each in (*opened.shown, opened.base)}
+        for design in {each.design for each in (*shown_designs(opened), base_design(opened))}
     }
     report = html_report(opened, summaries, date=datetime.date.today(), version=tig.__version__)
     _write(options.output, report)

@@ -46,6 +46,26 @@ DESIGN_COLOUR_NAMES = ("orange", "purple", "green", "olive", "violet", "vermilio
 DESIGN_DASHES = ((), (9, 4), (3, 3), (10, 3, 2, 3)) * 2
 """Dash of each of them: the second cue."""
 
+MOST_PINNED = len(DESIGN_COLOURS)
+"""Designs that can be pinned at a time: one for each colour."""
+
+
+def look(colour):
+    """Return colour and dash of a design in every plot.
+
+    Parameters
+    ----------
+    colour : int or None
+        Number of a pinned design's colour, 0 to 7; None: the current design.
+
+    Returns
+    -------
+    str, tuple of int
+        Colour code, and dash [px]; an empty dash is a solid line.
+    """
+    return (THIS_DESIGN, ()) if colour is None else (DESIGN_COLOURS[colour], DESIGN_DASHES[colour])
+
+
 FIGURE_COLOURS = (
     *(THEORY, THIS_DESIGN, LOADED_TRACK, COUPLED_BLOCK, PRESET_GHOST, SPECIFICATION),
     *DESIGN_COLOURS,

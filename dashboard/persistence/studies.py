@@ -13,8 +13,7 @@ import trackig_core as tig
 from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
 from dashboard.formats import quantity_text
 from dashboard.session.inputs import DesignInputs, design_of, display_values, preset_values
-from dashboard.session.pins import Pin, distinct_colours
-from trackig_core.study.studies import THIS_DESIGN
+from dashboard.session.pins import MOST, THIS_DESIGN, Pin, distinct_colours
 
 
 @dataclass(frozen=True)
@@ -113,6 +112,8 @@ def from_study(study):
     trackig_core.StudyError
         If sliders cannot show one of the designs, or two pinned designs have one name.
     """
+    if len(study.pinned) > MOST:
+        raise tig.StudyError(f"{len(study.pinned)} designs: the page shows at most {MOST}", "pinned")
     values = _values(study.design, study.preset, THIS_DESIGN, "design")
     pins = []
     for number, (each, colour) in enumerate(

@@ -22,9 +22,8 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.fields import NEWTON_PER_METRE, to_display
-from dashboard.session.pins import distinct_colours
+from dashboard.session.pins import THIS_DESIGN, distinct_colours, shown_designs
 from dashboard.session.results import SolutionSummary
-from trackig_core.study.studies import THIS_DESIGN
 
 PLOT_WIDTH = 7.3
 """Width of a plot [inch]: that of the text on A4."""
@@ -153,7 +152,7 @@ def html_report(study, summaries, *, date, version):
         version=version,
         lines=lines,
         base=base,
-        left_out=[each.name for each in study.shown if each.design not in summaries],
+        left_out=[each.name for each in shown_designs(study) if each.design not in summaries],
         hidden=[each.name for each in study.pinned if not each.shown],
         kind=f"{SUMMATIONS[study.view.summation]}; {REFERENCES[study.view.reference]}",
         gain_plot=_gain_plot(lines, study.specification),

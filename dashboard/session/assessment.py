@@ -13,8 +13,8 @@ import param
 
 import trackig_core as tig
 from dashboard import theme
+from dashboard.session.pins import THIS_DESIGN
 from dashboard.session.results import SolutionSummary
-from trackig_core.study.studies import THIS_DESIGN
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,26 @@ from dashboard.fields import PRESET_LABELS
 from dashboard.session.inputs import check_values, design_of, preset_values
 from trackig_core.names import LONGEST_NAME, allowed, brief, is_name
 
-MOST = len(theme.DESIGN_COLOURS)
-"""Designs that can be pinned at a time: one for each colour."""
+MOST = theme.MOST_PINNED
+
+THIS_DESIGN = "This design"
+"""What the current design is called beside those that are pinned."""
+
+
+def current_design(design, preset=None):
+    """Return the current design as a record like those that are pinned (trackig_core.PinnedDesign)."""
+    return tig.PinnedDesign(THIS_DESIGN, design, colour=None, preset=preset)
+
+
+def shown_designs(study):
+    """Return the current design of a study and those pinned designs that are shown."""
+    return (current_design(study.design), *(each for each in study.pinned if each.shown))
+
+
+def base_design(study):
+    """Return the design of a study from which differences are taken, under its name."""
+    base = study.view.base
+    return current_design(study.design) if base is None else study.pinned[base]
 
 
 class PinError(ValueError):
@@ -304,7 +322,10 @@ def distinct_colours(wanted):
     """
     wanted = list(wanted)
     free = (colour for colour in range(MOST) if colour not in wanted)
-    return tuple(next(free) if colour in wanted[:count] else colour for count, colour in enumerate(wanted))
+    return tuple(
+        next(free) if colour in wanted[:count] or colour >= MOST else colour
+        for count, colour in enumerate(wanted)
+    )
 
 
 def free_name(name, pinned):

@@ -7,6 +7,7 @@ import numpy as np
 import param
 
 import trackig_core as tig
+from dashboard import theme
 from dashboard.fields import KILONEWTON
 
 
@@ -54,6 +55,66 @@ class SolutionSummary:
     def design(self):
         """The design that was solved."""
         return self.solution.design
+
+
+@dataclass(frozen=True, eq=False)
+class DesignResult:
+    """One design with its name and look, and what was computed of it.
+
+    Attributes
+    ----------
+    pinned : trackig_core.PinnedDesign
+        The design, pinned or current.
+    summary : SolutionSummary or None
+        Its last good solution; None while there is none.
+    gain : trackig_core.InsertionGain or None
+        Its insertion gain by the definition in force; None while there is no solution.
+    verdict : trackig_core.Verdict or None
+        How it fares against the specification, if there is one.
+    level : trackig_core.TrackLevel or None
+        What the source becomes with it, if there is one.
+    """
+
+    pinned: tig.PinnedDesign
+    summary: SolutionSummary | None = None
+    gain: tig.InsertionGain | None = None
+    verdict: tig.Verdict | None = None
+    level: tig.TrackLevel | None = None
+
+    @property
+    def key(self):
+        """Key of its pin; None for the current design."""
+        return self.pinned.key
+
+    @property
+    def name(self):
+        """What it is called: text of a user's, which nothing may take for markup."""
+        return self.pinned.name
+
+    @property
+    def shown(self):
+        """Whether it is drawn."""
+        return self.pinned.shown
+
+    @property
+    def design(self):
+        """The design (trackig_core.TrackDesign)."""
+        return self.pinned.design
+
+    @property
+    def colour(self):
+        """Colour of its curves in every plot."""
+        return theme.look(self.pinned.colour)[0]
+
+    @property
+    def dash(self):
+        """Dash of its curves in every plot [px]; empty: solid."""
+        return theme.look(self.pinned.colour)[1]
+
+    @property
+    def levels(self):
+        """Insertion gain (21,) [dB], or None while there is no solution."""
+        return None if self.gain is None else self.gain.levels
 
 
 @dataclass(frozen=True, eq=False)

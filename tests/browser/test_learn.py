@@ -7,6 +7,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
+from dashboard.figures import motion as figures_motion
 from dashboard.teaching.lessons import load_lessons, reveal
 from tests.browser.test_dashboard import box, choose, column, wait_for_levels
 
@@ -45,12 +46,12 @@ def test_the_browser_draws_the_film_s_own_frames(dashboard, frame):
     set_model(dashboard, "film_slider", "value", 1000 * motion.time[frame])
     scale = column(dashboard, "film_facts", "scale")[0]
     height = column(dashboard, "film_rail", "y")
-    moved = -(height - motion.RAIL_AT) / scale / 1e6
+    moved = -(height - figures_motion.RAIL_AT) / scale / 1e6
     np.testing.assert_allclose(moved[36:], motion.rail[frame], atol=1e-6 * motion.step)
     np.testing.assert_allclose(moved, moved[::-1])
-    blocks = (motion.BLOCK_AT - column(dashboard, "film_supports", "block")) / scale / 1e6
+    blocks = (figures_motion.BLOCK_AT - column(dashboard, "film_supports", "block")) / scale / 1e6
     np.testing.assert_allclose(blocks[12:], motion.block[frame], atol=1e-6 * motion.step)
-    wheel = (motion.WHEEL_AT - column(dashboard, "film_wheel", "y")[0]) / scale / 1e6
+    wheel = (figures_motion.WHEEL_AT - column(dashboard, "film_wheel", "y")[0]) / scale / 1e6
     assert wheel == pytest.approx(motion.wheel[frame], abs=1e-6 * motion.step)
 
 

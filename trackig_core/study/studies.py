@@ -31,21 +31,12 @@ FORMAT = "trackig study"
 VERSION = 1
 """The version of the format that is written, and the newest that is read."""
 
-MOST_PINNED = 8
-"""Pinned designs that a study may have [-]."""
-
-COLOURS = 8
-"""Colours that tell pinned designs apart [-]."""
-
 MOST_BYTES = 262_144
 """Size that a file may have [bytes]."""
 
 LONGEST_LINE = 200
 """Characters that a line may have, unless it is a comment [-]. Dotted keys cost a reader the square of their
 length; with this bound the worst file takes about a second."""
-
-THIS_DESIGN = "This design"
-"""What the design at hand is called beside those that are pinned."""
 
 _DESIGN_KEYS = {
     "pad_stiffness": "pad_stiffness_N_per_m",
@@ -133,12 +124,12 @@ class View:
             if value not in choices:
                 raise StudyError(f"{brief(value)}: give {' or '.join(map(repr, choices))}", f"view.{name}")
         if self.base is not None:
-            _check_count(self.base, MOST_PINNED, "view.base")
+            _check_count(self.base, "view.base")
 
 
 @dataclass(frozen=True)
 class PinnedDesign:
-    """A design that is kept beside the one at hand.
+    """A design with a name and a look: the one record of a design that is shown beside others.
 
     Parameters
     ----------
@@ -146,12 +137,16 @@ class PinnedDesign:
         What it is called.
     design : TrackDesign
         The design.
-    colour : int
-        Which of the colours it is drawn in, 0 to 7.
+    colour : int or None
+        Number, from 0, of the colour in which an interface draws it; how many colours there are is for the
+        interface to know. None: that of the current design.
     shown : bool
         Whether it is drawn, reported and checked.
     preset : str or None
         Key of ``PRESETS`` from which it departs, if from any.
+    key : int or None
+        Tells it from all others of its session, whatever their names; None for the current design. It is no
+        part of a study's file.
 
     Raises
     ------
@@ -161,9 +156,10 @@ class PinnedDesign:
 
     name: str
     design: TrackDesign
-    colour: int = 0
+    colour: int | None = 0
     shown: bool = True
     preset: str | None = None
+    key: int | None = field(default=None, compare=False)
 
     def __post_init__(self):
         """Check every value once."""
@@ -171,7 +167,8 @@ class PinnedDesign:
             raise StudyError(f"{brief(self.name)}: give {allowed()}", "name")
         if not isinstance(self.design, TrackDesign):
             raise StudyError(f"{brief(self.design)}: give a TrackDesign", "design")
-        _check_count(self.colour, COLOURS, "colour")
+        if self.colour is not None:
+            _check_count(self.colour, "colour")
         if not isinstance(self.shown, bool):
             raise StudyError(f"{brief(self.shown)}: give true or false", "shown")
         _check_preset(self.preset)
@@ -221,26 +218,16 @@ class Study:
             _check_kind(getattr(self, name), kind, name)
         for number, pinned in enumerate(self.pinned):
             _check_kind(pinned, PinnedDesign, f"pinned[{number}]")
+            if pinned.colour is None:
+                raise StudyError(
+                    "None: only the current design has no colour of its own", f"pinned[{number}].colour"
+                )
         for name, (kind, _) in _TABLES.items():
             if getattr(self, name) is not None:
                 _check_kind(getattr(self, name), kind, name)
-        if len(self.pinned) > MOST_PINNED:
-            raise StudyError(f"{len(self.pinned)} designs: pin at most {MOST_PINNED}", "pinned")
         if self.view.base is not None and self.view.base >= len(self.pinned):
             raise StudyError(f"{self.view.base}: there is no such pinned design", "view.base")
         _check_preset(self.preset)
-
-    @property
-    def shown(self):
-        """The design at hand and those pinned designs that are shown: what is reported and checked."""
-        return (PinnedDesign(THIS_DESIGN, self.design), *(each for each in self.pinned if each.shown))
-
-    @property
-    def base(self):
-        """The design from which differences are taken, under its name (PinnedDesign)."""
-        if self.view.base is None:
-            return PinnedDesign(THIS_DESIGN, self.design)
-        return self.pinned[self.view.base]
 
     @classmethod
     def from_toml(cls, data):
@@ -291,9 +278,9 @@ def _check_preset(preset):
         raise StudyError(f"{brief(preset)}: give {', '.join(PRESETS)}, or remove it", "preset")
 
 
-def _check_count(value, end, path):
-    if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < end:
-        raise StudyError(f"{brief(value)}: give a whole number from 0 to {end - 1}", path)
+def _check_count(value, path):
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        raise StudyError(f"{brief(value)}: give a whole number, 0 or more", path)
 
 
 class _Section:
@@ -366,8 +353,6 @@ def _study(section):
     pinned = section.take("pinned", [])
     if not isinstance(pinned, list):
         raise StudyError(f"{brief(pinned)}: write each pinned design under [[pinned]]", "pinned")
-    if len(pinned) > MOST_PINNED:
-        raise StudyError(f"{len(pinned)} designs: keep at most {MOST_PINNED}", "pinned")
     study = Study(
         name=section.take("name", Study.name),
         preset=section.take("preset"),

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import trackig_core as tig
 from trackig_core.names import LONGEST_NAME, is_name
-from trackig_core.study.studies import LONGEST_LINE, MOST_BYTES, MOST_PINNED
+from trackig_core.study.studies import LONGEST_LINE, MOST_BYTES
 from trackig_core.track.design import RANGES
 from trackig_core.track.measured_curves import COLUMNS
 
@@ -175,7 +175,7 @@ def changed(old, new):
         (changed('"coherent"', '"loud"'), "view.summation: 'loud': give 'energy' or 'coherent'"),
         (changed('"coherent"', '["energy"]'), "view.summation: ['energy']: give"),
         (changed("base = 1", "base = 2"), "view.base: 2: there is no such pinned design"),
-        (changed("base = 1", "base = true"), "view.base: True: give a whole number from 0 to 7"),
+        (changed("base = 1", "base = true"), "view.base: True: give a whole number, 0 or more"),
         (changed("base = 1", "base = -1"), "view.base: -1"),
         (
             changed("100e6", "true"),
@@ -211,7 +211,7 @@ def changed(old, new):
         (changed('name = "Slab"', 'name = "\\u202e"'), "pinned[0].name: "),
         (changed("colour = 3", "preset = 'slab'"), "pinned[0].preset: 'slab': give slab-track, booted-sl"),
         (changed("version = 1", "version = 1\npreset = ['slab']"), "preset: ['slab']: give slab-track, "),
-        (changed("colour = 3", "colour = 8"), "pinned[0].colour: 8: give a whole number from 0 to 7"),
+        (changed("colour = 3", "colour = -8"), "pinned[0].colour: -8: give a whole number, 0 or more"),
         (changed("colour = 3", "colour = 3.0"), "pinned[0].colour: 3.0"),
         (changed("colour = 3", "color = 3"), "pinned[0].color: there is no such key; write 'colour'"),
         (changed("shown = false", "shown = 0"), "pinned[0].shown: 0: give true or false"),
@@ -235,7 +235,6 @@ def changed(old, new):
         ("x" * (MOST_BYTES + 1), "larger than 256 kB"),
         (b"x" * (MOST_BYTES + 1), "larger than 256 kB"),
         ("\n" * 5 + "x" * 1000, "line 6 has more than 200 characters"),
-        (FILE + "".join(f"[[pinned]]\nname='{n}'\n" for n in range(8)), "pinned: 10 designs: keep at most 8"),
         (FILE.partition("[view]")[0] + "design = 5", "design: 5: give a table"),
         (
             FILE.partition("[view]")[0]
@@ -307,13 +306,7 @@ def test_a_study_that_could_not_be_read_back_is_not_written():
     )  # fmt: skip
     assert tig.Study.from_toml(tig.Study(design).to_toml()).design == design
     with pytest.raises(tig.StudyError, match="256 kB can be read back"):
-        tig.Study(design, [tig.PinnedDesign("again", design)] * MOST_PINNED).to_toml()
-
-
-def test_shown_are_the_design_at_hand_and_the_pins_that_are_shown():
-    assert [each.name for each in STUDY.shown] == ["This design", "Softer \N{GREEK SMALL LETTER ETA}"]
-    assert STUDY.base is STUDY.pinned[1]
-    assert tig.Study(BLOCK).base.design is BLOCK
+        tig.Study(design, [tig.PinnedDesign("again", design)] * 8).to_toml()
 
 
 @pytest.mark.parametrize(
@@ -321,7 +314,7 @@ def test_shown_are_the_design_at_hand_and_the_pins_that_are_shown():
     [
         ({"design": 5}, "design"),
         ({"pinned": [5]}, "pinned[0]"),
-        ({"pinned": [tig.PinnedDesign("a", BLOCK)] * 9}, "pinned"),
+        ({"pinned": [tig.PinnedDesign("a", BLOCK, colour=None)]}, "pinned[0].colour"),
         ({"specification": STUDY.source}, "specification"),
         ({"source": STUDY.specification}, "source"),
         ({"view": None}, "view"),

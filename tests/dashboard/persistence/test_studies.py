@@ -152,6 +152,12 @@ def test_designs_that_sliders_cannot_show_are_refused(design, said):
     assert "“Odd one”: " in str(caught.value)
 
 
+def test_a_study_of_more_designs_than_the_page_shows_is_refused_and_still_read():
+    many = tig.Study(BLOCK, [tig.PinnedDesign(f"Design {n}", SLAB, colour=n) for n in range(9)])
+    with pytest.raises(tig.StudyError, match="pinned: 9 designs: the page shows at most 8"):
+        from_study(tig.Study.from_toml(many.to_toml()))
+
+
 def test_designs_of_one_name_are_refused():
     with pytest.raises(tig.StudyError, match="two designs are called “A”; give each its own"):
         from_study(tig.Study(BLOCK, [tig.PinnedDesign("A", SLAB), tig.PinnedDesign("A", BLOCK)]))

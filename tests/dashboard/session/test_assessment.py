@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
-from trackig_core.study.studies import THIS_DESIGN
+from dashboard.session.pins import THIS_DESIGN
 
 LIMITS = tig.Specification([(63, -3.0), (125, -5.0)])
 SOURCE = tig.SourceSpectrum([(31.5, 60.0), (63, 70.5)])
