@@ -33,7 +33,8 @@ from trackig_core.analysis.stiff_reference import StiffReferences, stiff_referen
 from trackig_core.analysis.verification import Verification, verify
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
-from trackig_core.frequency_domain.floquet_waves import Lattice, receptance, track_decay_rate
+from trackig_core.frequency_domain.floquet_waves import receptance, track_decay_rate
+from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.frequency_domain.natural_frequencies import cut_on
 from trackig_core.frequency_domain.operating_shapes import SteadyShape, steady_shape
 from trackig_core.levels.band_tables import BandTableError
@@ -51,9 +52,9 @@ from trackig_core.results import (
     ForceSpectrum,
     InsertionGain,
     NaturalFrequencies,
-    Solution,
     TimeHistory,
 )
+from trackig_core.solution import Solution
 from trackig_core.solver import compile_kernels, solve
 from trackig_core.study.studies import PinnedDesign, Study, StudyError, View
 from trackig_core.time_domain.grid import RunTooLargeError
