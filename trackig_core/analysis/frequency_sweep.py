@@ -21,9 +21,9 @@ from trackig_core.analysis.lumped import effective_supports, lumped_frequencies
 from trackig_core.arrays import RealArray
 from trackig_core.frequency_domain import natural_frequencies as modes
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
-from trackig_core.track.design import RANGES, DesignError
+from trackig_core.track.fields import DESIGN_FIELDS, DesignError
 
-FIELDS = tuple(name for name in RANGES if name not in ("mass_per_metre", "bending_stiffness"))
+FIELDS = tuple(each.name for each in DESIGN_FIELDS)
 """Fields of a design that can be varied: all that are numbers."""
 
 NOTABLE = 0.05

@@ -1,10 +1,10 @@
 """A study: what a workshop found, as one TOML file that people read and this module reads back exactly.
 
-A study holds the design at hand, those pinned beside it, the specification, the source and how they are
+A study holds the current design, those pinned beside it, the specification, the source and how they are
 looked at. SI units, named in the keys (``pad_stiffness_N_per_m``); levels in dB. Numbers are written with
 as many figures as they have, so that what is opened equals what was saved.
 
-The one rule: a file is hostile until it has been read as a whole. Its size is bounded, what nobody knows is
+A file is hostile until it has been read as a whole. Its size is bounded, what nobody knows is
 refused rather than dropped, and an error says where it is and what to do.
 """
 
@@ -22,8 +22,10 @@ from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 from trackig_core.track.catalogue import PRESETS
-from trackig_core.track.design import DesignError, Rail, TrackDesign
+from trackig_core.track.design import TrackDesign
+from trackig_core.track.fields import DESIGN_FIELDS, RAIL_FIELDS, DesignError
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
+from trackig_core.track.rails import Rail
 
 FORMAT = "trackig study"
 """What every file says it is."""
@@ -38,23 +40,11 @@ LONGEST_LINE = 200
 """Characters that a line may have, unless it is a comment [-]. Dotted keys cost a reader the square of their
 length; with this bound the worst file takes about a second."""
 
-_DESIGN_KEYS = {
-    "pad_stiffness": "pad_stiffness_N_per_m",
-    "pad_loss_factor": "pad_loss_factor",
-    "block_mass": "block_mass_kg",
-    "boot_stiffness": "boot_stiffness_N_per_m",
-    "boot_loss_factor": "boot_loss_factor",
-    "fastener_spacing": "fastener_spacing_m",
-    "wheel_mass": "wheel_mass_kg",
-    "contact_stiffness": "contact_stiffness_N_per_m",
-}
+_DESIGN_KEYS = {each.name: each.key for each in DESIGN_FIELDS}
 """Key of each number of a design."""
 
-_RAIL_KEYS = {
-    "name": "name",
-    "mass_per_metre": "mass_kg_per_m",
-    "bending_stiffness": "bending_stiffness_N_m2",
-}
+_RAIL_KEYS = {"name": "name"} | {each.name: each.key for each in RAIL_FIELDS}
+"""Key of the name and of each number of a rail."""
 
 _CURVES = {
     "pad_stiffness": ("pad_stiffness_measured", StiffnessCurve),
@@ -96,7 +86,7 @@ class StudyError(ValueError):
 
 @dataclass(frozen=True)
 class View:
-    """How insertion gain is reckoned and compared.
+    """How insertion gain is computed and compared.
 
     Parameters
     ----------
@@ -105,7 +95,7 @@ class View:
     reference : str
         ``"line"`` or ``"rigid"``.
     base : int or None
-        Number, from 0, of the pinned design from which differences are taken; None: from the design at hand.
+        Number, from 0, of the pinned design from which differences are taken; None: from the current design.
 
     Raises
     ------
@@ -181,7 +171,7 @@ class Study:
     Parameters
     ----------
     design : TrackDesign
-        The design at hand.
+        The current design.
     pinned : iterable of PinnedDesign
         Up to eight designs beside it.
     specification : Specification or None
@@ -189,11 +179,11 @@ class Study:
     source : SourceSpectrum or None
         Levels on the reference track.
     view : View
-        How insertion gain is reckoned and compared.
+        How insertion gain is computed and compared.
     name : str
         What the study is called.
     preset : str or None
-        Key of ``PRESETS`` from which the design at hand departs, if from any.
+        Key of ``PRESETS`` from which the current design departs, if from any.
 
     Raises
     ------
@@ -434,7 +424,7 @@ def _design(section):
 
 
 def _made(kind, values, keys, section):
-    """Return an object of the core, its errors told by the key that the file has for the field."""
+    """Return an object of the core, its errors named by the key that the file has for the field."""
     try:
         return kind(**values)
     except DesignError as error:
