@@ -11,8 +11,9 @@ other: its rail is held by the contact spring alone (lower), and the wheel that 
 waves: a wheel has no mode of its own above the frequency at which they begin to run.
 """
 
+import dataclasses
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -52,12 +53,12 @@ class FrequencySweep:
     """
 
     field: str
-    values: RealArray = field(repr=False)
-    loaded_track: RealArray = field(repr=False)
-    coupled_block: RealArray = field(repr=False)
-    cut_on: RealArray = field(repr=False)
-    lumped_coupled: RealArray = field(repr=False)
-    lumped_uncoupled: RealArray = field(repr=False)
+    values: RealArray = dataclasses.field(repr=False)
+    loaded_track: RealArray = dataclasses.field(repr=False)
+    coupled_block: RealArray = dataclasses.field(repr=False)
+    cut_on: RealArray = dataclasses.field(repr=False)
+    lumped_coupled: RealArray = dataclasses.field(repr=False)
+    lumped_uncoupled: RealArray = dataclasses.field(repr=False)
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,8 @@ def frequency_sweep(design: Track, field: str, values: ArrayLike) -> FrequencySw
     track = track_model(design).design
     rows = [_frequencies(track.replace(**{field: value})) for value in values]
     beam, coupled, uncoupled = (np.array(column).T for column in zip(*rows, strict=True))
-    return FrequencySweep(field, values, *beam, lumped_coupled=coupled, lumped_uncoupled=uncoupled)
+    loaded, block, waves_begin = beam
+    return FrequencySweep(field, values, loaded, block, waves_begin, coupled, uncoupled)
 
 
 def _frequencies(design: Track) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:

@@ -31,7 +31,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from trackig_core.arrays import BoolArray, RealArray
+from trackig_core.arrays import BoolArray, ComplexArray, RealArray
 from trackig_core.frequency_domain.natural_frequencies import consistent, coupled_pair
 from trackig_core.frequency_domain.refinement import (
     band_frequencies,
@@ -197,7 +197,9 @@ def lumped_spectrum(design: Track, frequency: ArrayLike, step: float = DEFAULT_S
     squared = (2 * np.pi * frequency) ** 2
     model = track_model(design)
     track, support = model.design, model.supports(frequency)
-    passed = 1.0 if support.boot is None else support.boot / (support.boot - support.inertia)
+    passed: ComplexArray | float = 1.0
+    if support.boot is not None and support.inertia is not None:
+        passed = support.boot / (support.boot - support.inertia)
     on_supports = effective_supports(model) * support.stiffness
     contact = 1 / (1 / track.contact_stiffness + 1 / on_supports - 1 / (track.wheel_mass * squared))
     coherent = np.abs(contact * passed * step) ** 2 / squared

@@ -113,8 +113,8 @@ def film(
     wheel, rail, block = np.split(moved, [1, 1 + elements.size], axis=1)
     return Motion(
         time=run.filter.times(len(samples))[::STRIDE],
-        position=elements * grid.dx,
-        support_position=supports * model.design.fastener_spacing,
+        position=elements.astype(np.float64) * grid.dx,
+        support_position=supports.astype(np.float64) * model.design.fastener_spacing,
         wheel=wheel[:, 0],
         rail=rail,
         block=block if model.design.two_stage else None,

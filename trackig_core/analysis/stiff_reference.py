@@ -107,11 +107,13 @@ def stiff_references(design: Track, frequency: ArrayLike) -> StiffReferences:
     frequency = np.union1d(np.asarray(frequency, dtype=float), resonance)
     rigid = (2 * np.pi * frequency * track.wheel_mass * DEFAULT_STEP) ** 2
     references = [track_model(very_stiff(track, stiffen_contact)) for stiffen_contact in (False, True)]
-    levels = [decibels(exact_spectrum(each, frequency, DEFAULT_STEP).energy / rigid) for each in references]
-    energies = [_band_energy(each) for each in references]
+    real, stiffened = (
+        decibels(exact_spectrum(each, frequency, DEFAULT_STEP).energy / rigid) for each in references
+    )
+    energies = [*(_band_energy(each) for each in references), _rigid_band_energy(track)]
     own = _band_energy(model)
-    gains = [decibels(own / energy) for energy in (*energies, _rigid_band_energy(track))]
-    return StiffReferences(frequency, *levels, resonance, *gains)
+    gain_real, gain_stiffened, gain_rigid = (decibels(own / energy) for energy in energies)
+    return StiffReferences(frequency, real, stiffened, resonance, gain_real, gain_stiffened, gain_rigid)
 
 
 def _rigid_band_energy(design: TrackDesign) -> RealArray:

@@ -21,6 +21,7 @@ from trackig_core.frequency_domain import kernels
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.results import ForceSpectrum
+from trackig_core.track.fields import DesignError
 
 NEPER = 20 / np.log(10)
 """Decibels in a factor of e [dB]."""
@@ -240,8 +241,15 @@ def block_to_rail(design: Track, frequency: RealArray) -> RealArray:
     -------
     numpy.ndarray (frequencies,)
         Magnitude of block over rail displacement [-].
+
+    Raises
+    ------
+    DesignError
+        If the track is single-stage.
     """
     supports = track_model(design).supports(frequency)
+    if supports.block is None:
+        raise DesignError("block_mass", None, "a two-stage track: a single-stage one has no blocks")
     return np.abs(supports.pad / supports.block)
 
 

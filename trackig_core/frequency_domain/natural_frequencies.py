@@ -108,7 +108,7 @@ def cut_on(model: TrackModel) -> tuple[float, ...]:
         return (_oscillator(rail_mass, model.pad),)
 
     def one_of_two(which: int) -> Callable[[Sequence[float]], float]:
-        return lambda stiffnesses: coupled_pair(*stiffnesses, rail_mass, block_mass)[which]
+        return lambda k: coupled_pair(k[0], k[1], rail_mass, block_mass)[which]
 
     return tuple(consistent(one_of_two(which), model.springs) for which in (0, 1))
 

@@ -97,7 +97,7 @@ def steady_shape(
         frequency=frequency,
         position=elements * spacing / per_bay,
         rail=rail,
-        support_position=elements[::per_bay] // per_bay * spacing,
+        support_position=(elements[::per_bay] // per_bay).astype(np.float64) * spacing,
         block=None if supports.block is None else rail[::per_bay] * supports.pad / supports.block,
         # the contact pushes the wheel up: -m w^2 W = -contact
         wheel=contact / (wheel_mass * lattice.frequency_squared(frequency)),

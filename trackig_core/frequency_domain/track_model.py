@@ -46,12 +46,14 @@ class Supports:
     @property
     def stiffness(self) -> ComplexArray:
         """Force of the support on the rail per displacement of the rail (frequencies,) [N/m]."""
-        return self.pad if self.block is None else self.pad - self.pad**2 / self.block
+        block = self.block
+        return self.pad if block is None else self.pad - self.pad**2 / block
 
     @property
     def transfer(self) -> ComplexArray:
         """Force into the ground per displacement of the rail (frequencies,) [N/m]."""
-        return self.pad if self.block is None else self.pad * self.boot / self.block
+        boot, block = self.boot, self.block
+        return self.pad if boot is None or block is None else self.pad * boot / block
 
 
 @dataclass(frozen=True, eq=False)

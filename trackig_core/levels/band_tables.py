@@ -148,7 +148,7 @@ class BandTable:
             If the file cannot be used; its ``line`` and ``column`` say where.
         """
         points = _checked(_read(data, cls.quantity), cls.quantity, "line")
-        return cls(points) if name is None else cls(points, name)
+        return cls(points) if name is None else cls(points, name)  # type: ignore[call-arg]  # subclasses name themselves
 
     def to_csv(self) -> str:
         """Return the table as a CSV file (str), which :meth:`from_csv` reads back exactly."""
@@ -259,7 +259,7 @@ def _read(data: str | bytes, quantity: Quantity) -> list[tuple[int, Any, Any]]:
     cells = [(number, _cells(line, separator)) for number, line in full]
     if cells and _parsed(cells[0][1][0], separator) is None:
         _check_header(*cells.pop(0), quantity)
-    rows = []
+    rows: list[tuple[int, Any, Any]] = []
     for number, row in cells:
         if len(row) > 2:
             message = (
@@ -271,7 +271,7 @@ def _read(data: str | bytes, quantity: Quantity) -> list[tuple[int, Any, Any]]:
         if _band(frequency) is None:
             raise quantity.error(_unknown_band(frequency), number, 1)
         if level:
-            rows.append((number, frequency, *level))
+            rows.append((number, frequency, level[0]))
     return rows
 
 
@@ -286,17 +286,21 @@ def _decoded(data: str | bytes, error: type[BandTableError]) -> str:
     """Return a file's text."""
     if len(data) > MOST_BYTES:
         raise error(f"the file is larger than {MOST_BYTES // 1024} kB: a table has one short line per band")
-    if isinstance(data, bytes):
-        # spreadsheets write UTF-16 with a mark, or a national code, whose figures are plain all the same
-        for code in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
-            try:
-                data = data.decode(code)
-                break
-            except UnicodeDecodeError:
-                continue
-    if not isinstance(data, str) or "\0" in data:
+    text = data if isinstance(data, str) else _text(data)
+    if text is None or "\0" in text:
         raise error("this is not a text file: save the table as CSV")
-    return data.removeprefix("\N{BYTE ORDER MARK}")
+    return text.removeprefix("\N{BYTE ORDER MARK}")
+
+
+def _text(data: bytes) -> str | None:
+    """Return what bytes say, or None if they are no text."""
+    # spreadsheets write UTF-16 with a mark, or a national code, whose figures are plain all the same
+    for code in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
+        try:
+            return data.decode(code)
+        except UnicodeDecodeError:
+            continue
+    return None
 
 
 def _is_empty(line: str) -> bool:

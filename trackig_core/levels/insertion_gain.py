@@ -4,7 +4,7 @@ Hz, N2 s2 and dB. Source: the paper (see :mod:`trackig_core.track.design`) for t
 and the energy sum; IEC 61260-1 for the bands.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection
 
 import numpy as np
 from scipy.interpolate import CubicSpline, make_interp_spline
@@ -89,7 +89,7 @@ def summed_energy(spectrum: ForceSpectrum, summation: str) -> RealArray:
     return spectrum.energy if summation == "energy" else spectrum.coherent_energy
 
 
-def check_choice(name: str, value: object, choices: Iterable[str]) -> None:
+def check_choice(name: str, value: object, choices: Collection[str]) -> None:
     """Raise a ValueError that names the choices if ``value`` is none of them."""
     if value not in choices:
         raise ValueError(f"{name} = {value!r}: give {' or '.join(repr(choice) for choice in choices)}")

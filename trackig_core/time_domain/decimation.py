@@ -72,7 +72,7 @@ class LowPass:
 
     def times(self, samples: int) -> RealArray:
         """Return the time that each sample stands for (samples,) [s]: the filter's centre."""
-        newest = np.arange(samples) * self.steps_per_sample + self.comb_factor - 1
+        newest = np.arange(samples, dtype=np.float64) * self.steps_per_sample + self.comb_factor - 1
         return (newest - (self.whole.size - 1) / 2) * self.time_step
 
     def gain(self, frequency: RealArray) -> RealArray:

@@ -375,7 +375,8 @@ class Run:
         """Step on, and fill the next samples."""
         count, tail = len(samples), self.filter.taps.size - 1
         rows = self._rows[: tail + count * self.filter.factor]
-        kernels.advance(*self._state, *self._constants, self.steps_done, rows[tail:])
+        arguments = (*self._state, *self._constants, self.steps_done, rows[tail:])
+        kernels.advance(*arguments)
         self.steps_done += count * self.filter.steps_per_sample
         kernels.decimate(rows, self.filter.taps, self.filter.factor, self._kept[:count])
         self._rows[:tail] = rows[-tail:].copy()

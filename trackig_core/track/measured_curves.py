@@ -123,7 +123,7 @@ def _checked(points: Iterable[Iterable[object]], columns: Sequence[str]) -> tupl
         raise MeasurementError(f"give rows of {', '.join(columns)}") from None
     if not 2 <= len(rows) <= MOST_POINTS:
         raise MeasurementError(f"{len(rows)} rows: give from 2 to {MOST_POINTS} rows of {', '.join(columns)}")
-    verified = []
+    verified: list[tuple[float, ...]] = []
     for number, row in enumerate(rows, start=1):
         if len(row) != len(columns):
             raise MeasurementError(f"{len(row)} values: give {', '.join(columns)}", number)

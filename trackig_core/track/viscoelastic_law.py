@@ -187,8 +187,9 @@ def laws(design: TrackDesign) -> tuple[Relaxation, Relaxation | None]:
         Law of the boots; None when single-stage.
     """
     pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
-    boot = relaxation(design.boot_stiffness, design.boot_loss_factor) if design.two_stage else None
-    return pad, boot
+    if design.boot_stiffness is None:
+        return pad, None
+    return pad, relaxation(design.boot_stiffness, design.boot_loss_factor)
 
 
 @lru_cache(maxsize=256)
@@ -262,8 +263,8 @@ def _fit(relative_errors: Callable[[Relaxation], RealArray], loss_factor: float)
     def law(logarithms: RealArray, worst_error: float = 0.0) -> Relaxation:
         strengths, times = loss_factor * np.exp(logarithms[:3]), np.exp(logarithms[3:])
         order = np.argsort(-times)
-        strengths, times = (tuple(float(value) for value in each[order]) for each in (strengths, times))
-        return Relaxation(1.0 + sum(strengths), strengths, times, worst_error)
+        slowest_first, their_times = tuple(strengths[order].tolist()), tuple(times[order].tolist())
+        return Relaxation(1.0 + sum(slowest_first), slowest_first, their_times, worst_error)
 
     start = np.log([1.6, 1.8, 3.0, *_START_TIMES])
     fit = least_squares(
