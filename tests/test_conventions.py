@@ -1,4 +1,4 @@
-"""What every change must keep: lint, format, and who may import whom."""
+"""What every change must keep: lint, format, types, and who may import whom."""
 
 import subprocess
 import sys
@@ -11,6 +11,7 @@ ROOT = Path(__file__).parent.parent
 CHECKS = {
     "ruff finds nothing": ["-m", "ruff", "check", "."],
     "ruff would format nothing": ["-m", "ruff", "format", "--check", "."],
+    "the core's types agree": ["-m", "mypy", "--no-incremental"],
     "import contracts hold": [
         "-c",
         "from importlinter.cli import lint_imports_command as c; c(['--no-cache'])",

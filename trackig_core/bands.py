@@ -8,6 +8,9 @@ means the same everywhere.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from trackig_core.arrays import RealArray
 
 BAND_NUMBERS = np.arange(7, 28)
 """Numbers n of the bands from 5 Hz to 500 Hz (21,) [-]."""
@@ -32,7 +35,7 @@ for _array in (BAND_NUMBERS, BAND_CENTRES, BAND_EDGES):
     _array.flags.writeable = False
 
 
-def decibels(ratio):
+def decibels(ratio: ArrayLike) -> RealArray:
     """Return the level of a ratio of energies.
 
     Parameters

@@ -1,7 +1,6 @@
 """What the solvers hand on: frozen records of arrays and numbers.
 
-All in SI units. The one rule: records carry results and no behaviour beyond naming them;
-whoever wants another quantity computes it from these fields.
+All in SI units. Records carry results and no behaviour beyond naming them.
 """
 
 from __future__ import annotations
@@ -9,15 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from trackig_core.bands import BAND_CENTRES, BAND_LABELS
-
 if TYPE_CHECKING:
+    from trackig_core.arrays import RealArray
     from trackig_core.time_domain.decimation import LowPass
-    from trackig_core.time_domain.grid import Grid
-    from trackig_core.track.design import TrackDesign
-    from trackig_core.track.viscoelastic_law import Relaxation
+
+__all__ = ["ForceSpectrum", "InsertionGain", "NaturalFrequencies", "TimeHistory"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,12 +42,12 @@ class TimeHistory:
         Whether the low-passed force had decayed by 80 dB at the end of the record.
     """
 
-    time: np.ndarray = field(repr=False)
-    support_force: np.ndarray = field(repr=False)
-    multiplicity: np.ndarray = field(repr=False)
-    wheel_displacement: np.ndarray = field(repr=False)
-    rail_displacement: np.ndarray = field(repr=False)
-    block_displacement: np.ndarray | None = field(repr=False)
+    time: RealArray = field(repr=False)
+    support_force: RealArray = field(repr=False)
+    multiplicity: RealArray = field(repr=False)
+    wheel_displacement: RealArray = field(repr=False)
+    rail_displacement: RealArray = field(repr=False)
+    block_displacement: RealArray | None = field(repr=False)
     low_pass: LowPass = field(repr=False)
     time_step: float
     step: float
@@ -76,9 +71,9 @@ class ForceSpectrum:
         Height of the step in contact compression that excites the track.
     """
 
-    frequency: np.ndarray = field(repr=False)
-    energy: np.ndarray = field(repr=False)
-    coherent_energy: np.ndarray = field(repr=False)
+    frequency: RealArray = field(repr=False)
+    energy: RealArray = field(repr=False)
+    coherent_energy: RealArray = field(repr=False)
     step: float
 
 
@@ -98,9 +93,9 @@ class InsertionGain:
         ``"energy"`` (squared support forces summed) or ``"coherent"`` (forces summed, then squared).
     """
 
-    levels: np.ndarray = field(repr=False)
-    band_energy: np.ndarray = field(repr=False)
-    reference_energy: np.ndarray = field(repr=False)
+    levels: RealArray = field(repr=False)
+    band_energy: RealArray = field(repr=False)
+    reference_energy: RealArray = field(repr=False)
     reference: str
     summation: str
 
@@ -135,71 +130,3 @@ class NaturalFrequencies:
     cut_on: tuple[float, ...]
     observed_loaded_track: float | None = None
     observed_coupled_block: float | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Everything that one call of :func:`trackig_core.solve` found out.
-
-    Attributes
-    ----------
-    design : TrackDesign
-        The track that was solved.
-    fidelity : str
-        The solver that was used.
-    gain : InsertionGain
-        Insertion gain and the energies behind it.
-    spectrum : ForceSpectrum
-        Narrow-band energy of the force into the ground.
-    natural_frequencies : NaturalFrequencies
-        Natural frequencies computed from the design, and those observed in the solution.
-    pad_law, boot_law : Relaxation
-        The fitted damping laws and how well they fit; ``boot_law`` is None when single-stage.
-    grid : Grid or None
-        Grid in space and time; None when nothing was stepped in time.
-    history : TimeHistory or None
-        Low-passed time record; None when nothing was stepped in time.
-    notes : tuple of str
-        What the user should know: a halved time step, an extended record, a poor damping fit.
-    """
-
-    design: TrackDesign
-    fidelity: str
-    gain: InsertionGain = field(repr=False)
-    spectrum: ForceSpectrum = field(repr=False)
-    natural_frequencies: NaturalFrequencies
-    pad_law: Relaxation = field(repr=False)
-    boot_law: Relaxation | None = field(repr=False)
-    grid: Grid | None = None
-    history: TimeHistory | None = field(default=None, repr=False)
-    notes: tuple[str, ...] = field(default=())
-
-    @property
-    def band_centres(self) -> np.ndarray:
-        """Exact mid-band frequencies (21,) [Hz]."""
-        return BAND_CENTRES
-
-    @property
-    def band_labels(self) -> tuple[str, ...]:
-        """Nominal mid-band frequencies, as text (21,) [Hz]."""
-        return BAND_LABELS
-
-    @property
-    def insertion_gain(self) -> np.ndarray:
-        """Insertion gain per band (21,) [dB]."""
-        return self.gain.levels
-
-    @property
-    def time(self) -> np.ndarray | None:
-        """Sample times of the force records (samples,) [s]; None when nothing was stepped in time."""
-        return None if self.history is None else self.history.time
-
-    @property
-    def loaded_support_force(self) -> np.ndarray | None:
-        """Low-passed force into the ground under the wheel (samples,) [N], or None."""
-        return None if self.history is None else self.history.support_force[:, 0]
-
-    @property
-    def total_force(self) -> np.ndarray | None:
-        """Low-passed force into the ground, summed over all supports (samples,) [N], or None."""
-        return None if self.history is None else self.history.support_force @ self.history.multiplicity

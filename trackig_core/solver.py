@@ -1,9 +1,10 @@
-"""The door: one design in, one solution out, whichever solver is asked.
+"""One design in, one solution out, whichever solver is asked.
 
-SI units. Source: the paper (see :mod:`trackig_core.track.design`). The one rule: whatever the fidelity, the
-same reference, bands and gain follow the spectrum.
+Whatever the fidelity, the same reference, bands and gain follow the spectrum. SI units. Source: the paper
+(see :mod:`trackig_core.track.design`).
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -11,16 +12,17 @@ import numpy as np
 from trackig_core.frequency_domain import floquet_waves, refinement
 from trackig_core.frequency_domain.convergence import time_step_errors
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
-from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
+from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
-from trackig_core.results import Solution
+from trackig_core.results import ForceSpectrum, NaturalFrequencies, TimeHistory
+from trackig_core.solution import Solution
 from trackig_core.time_domain import adaptive_grid
-from trackig_core.time_domain.grid import FEWEST_BAYS, make_grid
+from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid
 from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
 from trackig_core.time_domain.time_stepping import simulate
 from trackig_core.track.catalogue import PRESETS
-from trackig_core.track.design import DesignError, TrackDesign
-from trackig_core.track.viscoelastic_law import laws
+from trackig_core.track.design import DesignError
 
 POOR_FIT = 0.1
 """Relative error of a fitted loss factor above which the solution says so [-]."""
@@ -33,19 +35,19 @@ FIDELITIES = ("paper", "live", "exact")
 
 
 def solve(
-    design,
-    fidelity="paper",
+    design: Track,
+    fidelity: str = "paper",
     *,
-    reference="line",
-    summation="energy",
-    progress=None,
-    cancelled=None,
-):
+    reference: str = "line",
+    summation: str = "energy",
+    progress: Callable[[float], object] | None = None,
+    cancelled: Callable[[], object] | None = None,
+) -> Solution:
     """Compute the insertion gain and natural frequencies of a track.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track; ``PRESETS`` has four.
     fidelity : str
         ``"paper"``: the paper's finite-difference grid, time step, damping recursion and record.
@@ -80,56 +82,57 @@ def solve(
     ValueError
         If a choice is not one of the above.
     """
-    if not isinstance(design, TrackDesign):
-        raise DesignError("design", design, "a TrackDesign, such as PRESETS['slab-track']")
+    model = track_model(design)
     check_choice("fidelity", fidelity, FIDELITIES)
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
-    frequencies = natural_frequencies(design)
-    pad_law, boot_law = laws(design)
-    grid, history, notes = None, None, ()
-    watching = {"progress": progress, "cancelled": cancelled}
+    grid: Grid | None = None
+    history: TimeHistory | None = None
     if fidelity == "exact":
-        require_damping(design)
-        spectrum = banded_spectrum(design, frequencies.loaded_track)
+        spectrum = banded_spectrum(model)
+        notes = _sharpness_notes(spectrum)
     elif fidelity == "live":
-        chosen = adaptive_grid.plan(design, frequencies.loaded_track)
+        chosen = adaptive_grid.plan(model)
         grid = chosen.grid
         history = simulate(
-            design, grid, memory_order=adaptive_grid.MEMORY_ORDER, ending=adaptive_grid.Settled(), **watching
+            model,
+            grid,
+            memory_order=adaptive_grid.MEMORY_ORDER,
+            ending=adaptive_grid.Settled(),
+            progress=progress,
+            cancelled=cancelled,
         )
         spectrum = force_spectrum(history, adaptive_grid.PADDING)
         notes = _plan_notes(chosen, history)
     else:
-        grid = make_grid(design)
-        history = simulate(design, grid, **watching)
+        grid = make_grid(model)
+        history = simulate(model, grid, progress=progress, cancelled=cancelled)
         spectrum = force_spectrum(history)
-        notes = grid.notes + _extension_notes(grid, history) + _step_notes(design, grid)
-    gain = insertion_gain(spectrum, design, frequencies.loaded_track, reference, summation)
-    if fidelity == "exact":
-        notes = _sharpness_notes(spectrum)
+        notes = grid.notes + _extension_notes(grid, history) + _step_notes(model, grid)
+    frequencies = natural_frequencies(model)
     return Solution(
-        design=design,
+        design=model.design,
         fidelity=fidelity,
-        gain=gain,
+        gain=insertion_gain(spectrum, model.design, frequencies.loaded_track, reference, summation),
         spectrum=spectrum,
-        natural_frequencies=_observed(design, frequencies, spectrum, history),
-        pad_law=pad_law,
-        boot_law=boot_law,
+        natural_frequencies=_observed(model, frequencies, spectrum, history),
+        pad_law=model.pad,
+        boot_law=model.boot,
         grid=grid,
         history=history,
-        notes=notes + _fit_notes(pad_law, boot_law),
+        notes=notes + _fit_notes(model),
     )
 
 
-def _observed(design, frequencies, spectrum, history):
+def _observed(
+    model: TrackModel, frequencies: NaturalFrequencies, spectrum: ForceSpectrum, history: TimeHistory | None
+) -> NaturalFrequencies:
     """Return the natural frequencies with those added that the solution itself shows."""
-    block = None
-    if design.two_stage:
-        near = frequencies.coupled_block
+    block, near = None, frequencies.coupled_block
+    if near is not None:
         if history is None:
             axis = np.geomspace(near / PEAK_REACH, near * PEAK_REACH, 200)
-            block = peak_near(axis, floquet_waves.block_to_rail(design, axis), near)
+            block = peak_near(axis, floquet_waves.block_to_rail(model, axis), near)
         else:
             block = peak_near(*block_to_rail(history), near)
     per_line = spectrum.energy / spectrum.frequency**2
@@ -140,15 +143,15 @@ def _observed(design, frequencies, spectrum, history):
     )
 
 
-def _fit_notes(pad_law, boot_law):
+def _fit_notes(model: TrackModel) -> tuple[str, ...]:
     return tuple(
         f"the law fitted to the {part} misses the stated values by up to {law.worst_error:.0%}, 5 to 500 Hz"
-        for part, law in (("pad", pad_law), ("boot", boot_law))
-        if law is not None and law.worst_error > POOR_FIT
+        for part, law in zip(("pad", "boot"), model.springs, strict=False)
+        if law.worst_error > POOR_FIT
     )
 
 
-def _extension_notes(grid, history):
+def _extension_notes(grid: Grid, history: TimeHistory) -> tuple[str, ...]:
     """Return what is to be said of the length of the paper's record."""
     if history.steps == grid.steps:
         return _decay_notes(history)
@@ -156,7 +159,7 @@ def _extension_notes(grid, history):
     return (f"record extended to {history.steps * grid.dt:g} s{until}", *_decay_notes(history))
 
 
-def _decay_notes(history):
+def _decay_notes(history: TimeHistory) -> tuple[str, ...]:
     """Return what is to be said of a force that had not died down when its record ended."""
     if history.decayed:
         return ()
@@ -164,34 +167,36 @@ def _decay_notes(history):
     return (f"the force had not died down by 80 dB at {record:.3g} s: do not trust sharp resonances",)
 
 
-def _plan_notes(chosen, history):
+def _plan_notes(chosen: adaptive_grid.Plan, history: TimeHistory) -> tuple[str, ...]:
     """Return what live fidelity chose, and whether that is good enough."""
     grid, record = chosen.grid, history.steps * history.time_step
-    notes = (f"{grid.bays} bays, {1 / grid.dt:.0f} steps a second, a record of {record:.2g} s",)
+    notes: tuple[str, ...] = (
+        f"{grid.bays} bays, {1 / grid.dt:.0f} steps a second, a record of {record:.2g} s",
+    )
     if chosen.error > adaptive_grid.BUDGET:
         notes += (f"time step and ring cost up to {chosen.error:.2f} dB in a band",)
     return notes + _decay_notes(history)
 
 
-def _sharpness_notes(spectrum):
+def _sharpness_notes(spectrum: ForceSpectrum) -> tuple[str, ...]:
     """Return what is to be said of resonances that are too sharp to be resolved."""
     if spectrum.frequency.size <= refinement.MOST_FREQUENCIES:
         return ()
     return ("some resonances are too sharp to be resolved: do not trust their bands",)
 
 
-def _step_notes(design, grid):
+def _step_notes(model: TrackModel, grid: Grid) -> tuple[str, ...]:
     """Return what is to be said of the error that the time step makes, if it is large."""
     try:
-        error = time_step_errors(design, [grid.dt], memory_order=1)[0]
-    except DesignError:  # for want of loss there is no exact answer to compare with
+        error = time_step_errors(model, [grid.dt], memory_order=1)[0]
+    except DesignError:  # for want of loss there is no frequency-domain solution to compare with
         return ()
     if error <= LARGE_STEP_ERROR:
         return ()
     return (f"the paper's time step and damping memory cost up to {error:.1f} dB in a band",)
 
 
-def compile_kernels():
+def compile_kernels() -> None:
     """Compile every kernel, or load it from Numba's cache on disk, by solving one small track."""
     design = PRESETS["booted-block-low-mass"]
     simulate(design, make_grid(design, bays=FEWEST_BAYS, record=0.25))

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from tests.core.time_domain.test_grid import designs
 from trackig_core.frequency_domain import kernels as frequency_kernels
-from trackig_core.frequency_domain.floquet_waves import Lattice, exact_spectrum
+from trackig_core.frequency_domain.floquet_waves import exact_spectrum
+from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.time_domain import kernels as time_kernels
 from trackig_core.time_domain.grid import RING_BAYS, make_grid
 from trackig_core.time_domain.spectrum import force_spectrum
@@ -205,7 +206,7 @@ def test_results_show_themselves_in_a_few_lines(solved):
     solution = solved("slab-track")
     for shown in (solution, solution.spectrum, solution.history, solution.gain, tig.verify(solution)):
         assert 10 < len(repr(shown)) < 1500
-    assert "loaded_track=146.0" in repr(solution)
+    assert "loaded track 146.0 Hz" in repr(solution)
 
 
 def test_a_costly_time_step_is_told():

@@ -1,1 +1,70 @@
-"""What is learnt from a design beyond its insertion gain: checks, simpler models, motion, damping."""
+"""What is computed of a design or a solution beside its gain: causes, errors, shapes, comparisons."""
+
+from trackig_core.analysis.asymptotes import Asymptote, MeasuredSlope, gain_asymptotes, measured_slopes
+from trackig_core.analysis.damping import (
+    LOSS_FACTORS,
+    DampingCurve,
+    damping_curves,
+    gain_by_loss_factor,
+    with_loss_factor,
+)
+from trackig_core.analysis.frequency_sweep import Departure, FrequencySweep, departure, frequency_sweep
+from trackig_core.analysis.lumped import (
+    GOOD_ENOUGH,
+    LumpedComparison,
+    LumpedFrequencies,
+    compare_with_beam,
+    effective_supports,
+    lumped_frequencies,
+    lumped_insertion_gain,
+    lumped_spectrum,
+)
+from trackig_core.analysis.motion import Motion, film
+from trackig_core.analysis.rolland import PeerReceptance, peer_receptances
+from trackig_core.analysis.stiff_reference import StiffReferences, stiff_references
+from trackig_core.analysis.verification import Verification, verify
+from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
+from trackig_core.frequency_domain.floquet_waves import receptance, track_decay_rate
+from trackig_core.frequency_domain.lattice import Lattice
+from trackig_core.frequency_domain.natural_frequencies import cut_on
+from trackig_core.frequency_domain.operating_shapes import SteadyShape, steady_shape
+
+__all__ = [
+    "GOOD_ENOUGH",
+    "LOSS_FACTORS",
+    "Asymptote",
+    "DampingCurve",
+    "Departure",
+    "FrequencySweep",
+    "Lattice",
+    "LumpedComparison",
+    "LumpedFrequencies",
+    "MeasuredSlope",
+    "Motion",
+    "PeerReceptance",
+    "SteadyShape",
+    "StiffReferences",
+    "Verification",
+    "compare_with_beam",
+    "cut_on",
+    "damping_curves",
+    "departure",
+    "effective_supports",
+    "element_errors",
+    "film",
+    "frequency_sweep",
+    "gain_asymptotes",
+    "gain_by_loss_factor",
+    "lumped_frequencies",
+    "lumped_insertion_gain",
+    "lumped_spectrum",
+    "measured_slopes",
+    "peer_receptances",
+    "receptance",
+    "steady_shape",
+    "stiff_references",
+    "time_step_errors",
+    "track_decay_rate",
+    "verify",
+    "with_loss_factor",
+]

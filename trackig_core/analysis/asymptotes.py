@@ -1,6 +1,6 @@
 """Straight asymptotes of insertion gain: level below the resonances, so many decibels an octave above.
 
-Without loss the force that the chain of :mod:`trackig_core.analysis.lumped` passes into the ground, over
+Without loss the force that the model of :mod:`trackig_core.analysis.lumped` passes into the ground, over
 that which a rigid track would, has no zeros and one pole per natural frequency f_i:
 
     T(f) = 1 / product_i (1 - (f / f_i)^2)
@@ -13,23 +13,27 @@ Against the straight reference line, which touches the spectrum at a tenth of th
 lines lie lower by 20 log10 T there (0.09 dB); an energy sum against the rigid track, by the share of the
 load's energy.
 
-Real tracks differ: a causal damper stiffens with frequency, which flattens the slopes of the chain, and in
-the beam waves run along the rail. :func:`measured_slopes` holds both against the straight lines.
+Real tracks differ: a causal damper stiffens with frequency, which flattens the slopes of the lumped model,
+and in the beam waves run along the rail. :func:`measured_slopes` compares both with the straight lines.
 
-Hz, dB, dB per octave. The one rule: a line is drawn from the chain, a slope is measured where it is shown.
+Hz, dB, dB per octave.
 """
 
 import itertools
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from trackig_core.analysis.lumped import energy_share, lumped_frequencies, lumped_spectrum
+from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, LINE_FRACTION, decibels
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
 from trackig_core.frequency_domain.refinement import require_damping
+from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, summed_energy
+from trackig_core.results import ForceSpectrum
 from trackig_core.track.design import DEFAULT_STEP
 
 PER_RESONANCE = -40 * math.log10(2)
@@ -69,7 +73,7 @@ class MeasuredSlope:
     frequency : float
         Where the slopes are measured [Hz]: midway between two resonances, else at the end of the bands.
     lumped, beam : float
-        Slope of the damped chain and of the beam model there [dB per octave].
+        Slope of the damped lumped model and of the beam model there [dB per octave].
     """
 
     asymptote: Asymptote
@@ -78,12 +82,14 @@ class MeasuredSlope:
     beam: float
 
 
-def gain_asymptotes(design, reference="line", summation="energy"):
+def gain_asymptotes(
+    design: Track, reference: str = "line", summation: str = "energy"
+) -> tuple[Asymptote, ...]:
     """Return the straight asymptotes of insertion gain over the bands.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     reference, summation : str
         As for :func:`trackig_core.insertion_gain`.
@@ -91,7 +97,7 @@ def gain_asymptotes(design, reference="line", summation="energy"):
     Returns
     -------
     tuple of Asymptote
-        Lines that join at the chain's natural frequencies, from the lowest to the highest band edge.
+        Lines that join at the lumped model's natural frequencies, from the lowest to the highest band edge.
 
     Raises
     ------
@@ -100,11 +106,12 @@ def gain_asymptotes(design, reference="line", summation="energy"):
     """
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
-    corners = lumped_frequencies(design).coupled
+    model = track_model(design)
+    corners = lumped_frequencies(model).coupled
 
-    def level(frequency):
+    def level(frequency: float) -> float:
         falls = (max(0.0, math.log2(frequency / corner)) for corner in corners)
-        return _level_below(design, corners, reference, summation) + PER_RESONANCE * sum(falls)
+        return _level_below(model, corners, reference, summation) + PER_RESONANCE * sum(falls)
 
     low, high = float(BAND_EDGES[0]), float(BAND_EDGES[-1])
     ends = [low, *(corner for corner in corners if low < corner < high), high]
@@ -118,20 +125,20 @@ def gain_asymptotes(design, reference="line", summation="energy"):
     )
 
 
-def _level_below(design, corners, reference, summation):
+def _level_below(model: TrackModel, corners: Sequence[float], reference: str, summation: str) -> float:
     """Return the insertion gain far below the resonances [dB]."""
     if reference == "line":
         anchor = LINE_FRACTION * corners[0]
         return 20 * sum(math.log10(1 - (anchor / corner) ** 2) for corner in corners)
-    return 10 * math.log10(energy_share(design)) if summation == "energy" else 0.0
+    return 10 * math.log10(energy_share(model)) if summation == "energy" else 0.0
 
 
-def measured_slopes(design, summation="energy"):
+def measured_slopes(design: Track, summation: str = "energy") -> tuple[MeasuredSlope, ...]:
     """Return how steep the exact models are along each asymptote; the reference does not matter.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     summation : str
         As for :func:`trackig_core.insertion_gain`.
@@ -148,20 +155,21 @@ def measured_slopes(design, summation="energy"):
     ValueError
         If ``summation`` is not one of the choices.
     """
-    require_damping(design)
-    lines = gain_asymptotes(design, summation=summation)
+    model = track_model(design)
+    require_damping(model)
+    lines = gain_asymptotes(model, summation=summation)
     return tuple(
         MeasuredSlope(
             asymptote=line,
             frequency=at,
-            lumped=_slope(lambda f: lumped_spectrum(design, f), at, summation),
-            beam=_slope(lambda f: exact_spectrum(design, f, DEFAULT_STEP), at, summation),
+            lumped=_slope(lambda f: lumped_spectrum(model, f), at, summation),
+            beam=_slope(lambda f: exact_spectrum(model, f, DEFAULT_STEP), at, summation),
         )
         for line, at in zip(lines, _midway(lines), strict=True)
     )
 
 
-def _midway(lines):
+def _midway(lines: Sequence[Asymptote]) -> list[float]:
     """Return where each line is followed best [Hz]."""
     if len(lines) == 1:
         return [float(BAND_CENTRES[-1] if lines[0].slope else BAND_CENTRES[0])]
@@ -172,7 +180,7 @@ def _midway(lines):
     return between
 
 
-def _slope(spectrum_at, frequency, summation):
+def _slope(spectrum_at: Callable[[RealArray], ForceSpectrum], frequency: float, summation: str) -> float:
     """Return the slope of energy over frequency squared: that of insertion gain [dB per octave]."""
     ends = np.array([frequency / _SHORT, frequency * _SHORT])
     levels = decibels(summed_energy(spectrum_at(ends), summation) / ends**2)

@@ -2,21 +2,21 @@
 
 A causal damper must stiffen with frequency: the stored part of its force cannot be had without the lost
 part (Kramers and Kronig). So loss that tames a resonance costs isolation above it, where the stiffer spring
-passes more. Hz, dB; stiffness as a ratio to that at 50 Hz. Source:
-:mod:`trackig_core.track.viscoelastic_law`.
-
-The one rule: what is shown are the laws that the solvers use, not the targets to which they were fitted.
+passes more. What is shown are the laws that the solvers use, not the targets to which they were fitted. Hz,
+dB; stiffness as a ratio to that at 50 Hz. Source: :mod:`trackig_core.track.viscoelastic_law`.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from trackig_core.frequency_domain.natural_frequencies import loaded_track
-from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
-from trackig_core.levels.insertion_gain import insertion_gain
-from trackig_core.track.design import REFERENCE_FREQUENCY
-from trackig_core.track.viscoelastic_law import laws
+from trackig_core.arrays import RealArray
+from trackig_core.frequency_domain.refinement import banded_gain
+from trackig_core.frequency_domain.track_model import Track, track_model
+from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
+from trackig_core.track.viscoelastic_law import Relaxation
 
 LOSS_FACTORS = (0.05, 0.2, 0.5)
 """Loss factors that are compared unless others are asked for [-]: a resilient, a common, a lossy material."""
@@ -36,17 +36,17 @@ class DampingCurve:
         Im K(f) over Re K(f).
     """
 
-    frequency: np.ndarray = field(repr=False)
-    stiffness: np.ndarray = field(repr=False)
-    loss_factor: np.ndarray = field(repr=False)
+    frequency: RealArray = field(repr=False)
+    stiffness: RealArray = field(repr=False)
+    loss_factor: RealArray = field(repr=False)
 
 
-def damping_curves(design, frequency):
+def damping_curves(design: Track, frequency: ArrayLike) -> tuple[DampingCurve, DampingCurve | None]:
     """Return how stiff and how lossy pad and boot are over frequency.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     frequency : array_like (frequencies,)
         Frequencies [Hz].
@@ -59,21 +59,21 @@ def damping_curves(design, frequency):
         Of the boots; None when single-stage.
     """
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
-    pad, boot = (None if law is None else _curve(law, frequency) for law in laws(design))
-    return pad, boot
+    model = track_model(design)
+    return _curve(model.pad, frequency), None if model.boot is None else _curve(model.boot, frequency)
 
 
-def _curve(law, frequency):
+def _curve(law: Relaxation, frequency: RealArray) -> DampingCurve:
     relative = law.dynamic_stiffness(frequency).real / law.stiffness(REFERENCE_FREQUENCY)
     return DampingCurve(frequency, relative, law.loss_factor(frequency))
 
 
-def with_loss_factor(design, loss_factor):
+def with_loss_factor(design: Track, loss_factor: float) -> TrackDesign:
     """Return a design whose pads and boots all have one loss factor, their stiffness at 50 Hz unchanged.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     loss_factor : float
         Loss factor [-].
@@ -88,20 +88,25 @@ def with_loss_factor(design, loss_factor):
     DesignError
         If the loss factor is not allowed.
     """
+    model = track_model(design)
     changes = {}
-    for part, law in zip(("pad", "boot"), laws(design), strict=True):
-        if law is not None:
-            changes[f"{part}_stiffness"] = law.stiffness(REFERENCE_FREQUENCY)
-            changes[f"{part}_loss_factor"] = loss_factor
-    return design.replace(**changes)
+    for part, law in zip(("pad", "boot"), model.springs, strict=False):
+        changes[f"{part}_stiffness"] = law.stiffness(REFERENCE_FREQUENCY)
+        changes[f"{part}_loss_factor"] = loss_factor
+    return model.design.replace(**changes)
 
 
-def gain_by_loss_factor(design, loss_factors=LOSS_FACTORS, reference="line", summation="energy"):
+def gain_by_loss_factor(
+    design: Track,
+    loss_factors: Iterable[float] = LOSS_FACTORS,
+    reference: str = "line",
+    summation: str = "energy",
+) -> RealArray:
     """Return the exact insertion gain of a design at several loss factors.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     loss_factors : sequence of float (factors,)
         Loss factors of pads and boots alike [-].
@@ -120,12 +125,6 @@ def gain_by_loss_factor(design, loss_factors=LOSS_FACTORS, reference="line", sum
     ValueError
         If ``reference`` or ``summation`` is not one of the choices.
     """
-    rows = []
-    for loss_factor in loss_factors:
-        changed = with_loss_factor(design, loss_factor)
-        require_damping(changed)
-        loaded = loaded_track(changed)
-        rows.append(
-            insertion_gain(banded_spectrum(changed, loaded), changed, loaded, reference, summation).levels
-        )
-    return np.array(rows)
+    model = track_model(design)
+    changed = [with_loss_factor(model, loss_factor) for loss_factor in loss_factors]
+    return np.array([banded_gain(each, reference=reference, summation=summation).levels for each in changed])

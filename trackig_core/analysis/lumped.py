@@ -1,4 +1,4 @@
-"""The one-dimensional model beside the beam: wheel and block in a chain of springs.
+"""The lumped model beside the beam: wheel and block on springs, one above the other.
 
 The rail spreads the wheel's load over several supports. A beam on an even foundation of stiffness k' = K/L
 (a support's stiffness over the spacing) yields by F beta / (2 k') under a force F, and by
@@ -6,7 +6,7 @@ The rail spreads the wheel's load over several supports. A beam on an even found
     phi(x) = exp(-beta |x|) (cos beta x + sin beta |x|),    beta = (k' / (4 EI))^(1/4)
 
 of that at a distance x (Hetenyi, "Beams on Elastic Foundation", 1946; Zimmermann, 1888). It is thus as
-stiff as n = 2 / (beta L) supports side by side. The chain puts the wheel on that many supports:
+stiff as n = 2 / (beta L) supports side by side. The lumped model puts the wheel on that many supports:
 
     wheel m_w -- k_H -- n k_p -- block n m_b -- n k_b -- ground            (single-stage: no block, no boot)
 
@@ -21,26 +21,28 @@ a (wheel, the block held) and b (block on its boot, the wheel away) lie between 
 pair straddles the uncoupled, on every design. Springs that stiffen with frequency leave it true, since
 each frequency is the one root of f = f(K(f)).
 
-The one rule: nothing is fitted to the beam model, so that what the two share is understood and what
-parts them is what the beam adds.
+Nothing is fitted to the beam model: what sets the two apart is what the beam adds.
 """
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from trackig_core.frequency_domain.natural_frequencies import consistent, coupled_pair, loaded_track
+from trackig_core.arrays import BoolArray, ComplexArray, RealArray
+from trackig_core.frequency_domain.natural_frequencies import consistent, coupled_pair
 from trackig_core.frequency_domain.refinement import (
     band_frequencies,
-    banded_spectrum,
+    banded_gain,
     refined_spectrum,
     require_damping,
 )
+from trackig_core.frequency_domain.track_model import Track, TrackModel, once_per_model, track_model
 from trackig_core.levels.insertion_gain import insertion_gain
-from trackig_core.results import ForceSpectrum
-from trackig_core.track.design import DEFAULT_STEP, REFERENCE_FREQUENCY
-from trackig_core.track.viscoelastic_law import laws
+from trackig_core.results import ForceSpectrum, InsertionGain
+from trackig_core.track.design import DEFAULT_STEP, REFERENCE_FREQUENCY, TrackDesign
 
 GOOD_ENOUGH = 3.0
 """Difference from the beam model up to which a band of the lumped model serves a first estimate [dB]: the
@@ -49,7 +51,7 @@ least step in level that listeners are commonly said to notice."""
 
 @dataclass(frozen=True)
 class LumpedFrequencies:
-    """Natural frequencies of the chain [Hz].
+    """Natural frequencies of the lumped model [Hz].
 
     Attributes
     ----------
@@ -66,7 +68,7 @@ class LumpedFrequencies:
 
 @dataclass(frozen=True, eq=False)
 class LumpedComparison:
-    """Insertion gain of the chain beside that of the beam model.
+    """Insertion gain of the lumped model beside that of the beam model.
 
     Attributes
     ----------
@@ -76,22 +78,23 @@ class LumpedComparison:
         Where the two lie within :data:`GOOD_ENOUGH` of each other.
     """
 
-    lumped: np.ndarray = field(repr=False)
-    beam: np.ndarray = field(repr=False)
-    good_enough: np.ndarray = field(repr=False)
+    lumped: RealArray = field(repr=False)
+    beam: RealArray = field(repr=False)
+    good_enough: BoolArray = field(repr=False)
 
     @property
-    def difference(self):
+    def difference(self) -> RealArray:
         """Lumped less beam (21,) [dB]."""
         return self.lumped - self.beam
 
 
-def effective_supports(design):
+@once_per_model
+def effective_supports(model: TrackModel) -> float:
     """Return how many supports side by side are as stiff as the track is under its wheel.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
 
     Returns
@@ -99,15 +102,16 @@ def effective_supports(design):
     float
         n = 2 / (beta L), but one at least [-].
     """
-    return max(1.0, _spread(design))
+    return max(1.0, _spread(model))
 
 
-def energy_share(design):
+@once_per_model
+def energy_share(model: TrackModel) -> float:
     """Return the sum of the supports' squared forces over their squared sum, the load shared out by phi.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
 
     Returns
@@ -115,23 +119,24 @@ def energy_share(design):
     float
         L (integral of phi^2) / (integral of phi)^2 = 3 / (4 n), but one at most [-].
     """
-    return min(1.0, 0.75 / _spread(design))
+    return min(1.0, 0.75 / _spread(model))
 
 
-def _spread(design):
+def _spread(model: TrackModel) -> float:
     """Return 2 / (beta L), from the stiffnesses at 50 Hz [-]."""
-    support = 1 / sum(1 / law.stiffness(REFERENCE_FREQUENCY) for law in laws(design) if law)
-    spacing = design.fastener_spacing
-    beta = (support / spacing / (4 * design.rail.bending_stiffness)) ** 0.25
+    support = 1 / sum(1 / law.stiffness(REFERENCE_FREQUENCY) for law in model.springs)
+    spacing = model.design.fastener_spacing
+    beta: float = (support / spacing / (4 * model.design.rail.bending_stiffness)) ** 0.25
     return 2 / (beta * spacing)
 
 
-def lumped_frequencies(design):
-    """Return the coupled and uncoupled natural frequencies of the chain, without loss.
+@once_per_model
+def lumped_frequencies(model: TrackModel) -> LumpedFrequencies:
+    """Return the coupled and uncoupled natural frequencies of the lumped model, without loss.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
 
     Returns
@@ -139,40 +144,44 @@ def lumped_frequencies(design):
     LumpedFrequencies
         Frequencies, every stiffness at its dynamic value Re K(f) [Hz].
     """
-    supports = effective_supports(design)
-    pad, boot = laws(design)
+    track, supports = model.design, effective_supports(model)
+    block_mass, boot = track.block_mass, model.boot
 
-    def wheel(stiffnesses):
-        return math.sqrt(_upper(design, supports, stiffnesses[0]) / design.wheel_mass) / (2 * math.pi)
+    def wheel(stiffnesses: Sequence[float]) -> float:
+        return math.sqrt(_upper(track, supports, stiffnesses[0]) / track.wheel_mass) / (2 * math.pi)
 
-    def block(stiffnesses):
-        return math.sqrt(stiffnesses[0] / design.block_mass) / (2 * math.pi)
-
-    def coupled(stiffnesses, which):
-        k_pad, k_boot = stiffnesses
-        upper = _upper(design, supports, k_pad)
-        return coupled_pair(upper, supports * k_boot, design.wheel_mass, supports * design.block_mass)[which]
-
-    alone = consistent(wheel, (pad,))
-    if boot is None:
+    alone = consistent(wheel, (model.pad,))
+    if block_mass is None or boot is None:
         return LumpedFrequencies((alone,), (alone,))
+
+    def block(stiffnesses: Sequence[float]) -> float:
+        return math.sqrt(stiffnesses[0] / block_mass) / (2 * math.pi)
+
+    def one_of_two(which: int) -> Callable[[Sequence[float]], float]:
+        def coupled(stiffnesses: Sequence[float]) -> float:
+            k_pad, k_boot = stiffnesses
+            upper = _upper(track, supports, k_pad)
+            return coupled_pair(upper, supports * k_boot, track.wheel_mass, supports * block_mass)[which]
+
+        return coupled
+
     return LumpedFrequencies(
-        coupled=tuple(consistent(lambda k, which=which: coupled(k, which), (pad, boot)) for which in (0, 1)),
+        coupled=tuple(consistent(one_of_two(which), model.springs) for which in (0, 1)),
         uncoupled=(alone, consistent(block, (boot,))),
     )
 
 
-def _upper(design, supports, pad):
+def _upper(design: TrackDesign, supports: float, pad: float) -> float:
     """Return the stiffness between wheel and block: contact spring and pads in series [N/m]."""
     return 1 / (1 / design.contact_stiffness + 1 / (supports * pad))
 
 
-def lumped_spectrum(design, frequency, step=DEFAULT_STEP):
-    """Return the energy spectrum of the force that the chain passes into the ground after a step.
+def lumped_spectrum(design: Track, frequency: ArrayLike, step: float = DEFAULT_STEP) -> ForceSpectrum:
+    """Return the energy spectrum of the force that the lumped model passes into the ground after a step.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track and its wheel.
     frequency : array_like (frequencies,)
         Frequencies [Hz], ascending and greater than zero.
@@ -186,33 +195,32 @@ def lumped_spectrum(design, frequency, step=DEFAULT_STEP):
     """
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
     squared = (2 * np.pi * frequency) ** 2
-    supports = effective_supports(design)
-    pad, boot = (law.dynamic_stiffness(frequency) if law else None for law in laws(design))
-    support, passed = pad, 1.0
-    if design.two_stage:
-        between = pad + boot - design.block_mass * squared
-        support, passed = pad - pad**2 / between, boot / (boot - design.block_mass * squared)
-    contact = 1 / (
-        1 / design.contact_stiffness + 1 / (supports * support) - 1 / (design.wheel_mass * squared)
-    )
+    model = track_model(design)
+    track, support = model.design, model.supports(frequency)
+    passed: ComplexArray | float = 1.0
+    if support.boot is not None and support.inertia is not None:
+        passed = support.boot / (support.boot - support.inertia)
+    on_supports = effective_supports(model) * support.stiffness
+    contact = 1 / (1 / track.contact_stiffness + 1 / on_supports - 1 / (track.wheel_mass * squared))
     coherent = np.abs(contact * passed * step) ** 2 / squared
     return ForceSpectrum(
         frequency=frequency,
-        energy=coherent * energy_share(design),
+        energy=coherent * energy_share(model),
         coherent_energy=coherent,
         step=step,
     )
 
 
-def lumped_insertion_gain(design, reference="line", summation="energy"):
-    """Return the insertion gain of the chain, on the same bands and references as the beam model.
+def lumped_insertion_gain(design: Track, reference: str = "line", summation: str = "energy") -> InsertionGain:
+    """Return the insertion gain of the lumped model, on the same bands and references as the beam model.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     reference, summation : str
-        As for :func:`trackig_core.insertion_gain`; the line is anchored by the chain's own lowest frequency.
+        As for :func:`trackig_core.insertion_gain`; the line is anchored by the lumped model's own lowest
+        frequency.
 
     Returns
     -------
@@ -226,18 +234,19 @@ def lumped_insertion_gain(design, reference="line", summation="energy"):
     ValueError
         If ``reference`` or ``summation`` is not one of the choices.
     """
-    require_damping(design)
-    lowest = lumped_frequencies(design).coupled[0]
-    spectrum = refined_spectrum(lambda between: lumped_spectrum(design, between), band_frequencies(lowest))
-    return insertion_gain(spectrum, design, lowest, reference, summation)
+    model = track_model(design)
+    require_damping(model)
+    lowest = lumped_frequencies(model).coupled[0]
+    spectrum = refined_spectrum(lambda between: lumped_spectrum(model, between), band_frequencies(lowest))
+    return insertion_gain(spectrum, model.design, lowest, reference, summation)
 
 
-def compare_with_beam(design, reference="line", summation="energy"):
-    """Lay the chain's insertion gain beside that of the beam model, both exact.
+def compare_with_beam(design: Track, reference: str = "line", summation: str = "energy") -> LumpedComparison:
+    """Return the lumped model's insertion gain beside that of the beam model, both in closed form.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     reference, summation : str
         As for :func:`trackig_core.insertion_gain`.
@@ -254,7 +263,7 @@ def compare_with_beam(design, reference="line", summation="energy"):
     ValueError
         If ``reference`` or ``summation`` is not one of the choices.
     """
-    lumped = lumped_insertion_gain(design, reference, summation).levels
-    loaded = loaded_track(design)
-    beam = insertion_gain(banded_spectrum(design, loaded), design, loaded, reference, summation).levels
+    model = track_model(design)
+    lumped = lumped_insertion_gain(model, reference, summation).levels
+    beam = banded_gain(model, reference=reference, summation=summation).levels
     return LumpedComparison(lumped, beam, np.abs(lumped - beam) <= GOOD_ENOUGH)

@@ -5,18 +5,19 @@ rail element and every block near the wheel. Frames are samples of the low-passe
 positive towards the ground; the track to the left of the wheel is the mirror image of that to the right.
 The wheel begins one step below a rail at rest, squeezing the contact spring (see
 :mod:`trackig_core.track.design`); the filter rounds that jump off over the millisecond around time zero.
-
-The one rule: a frame is what the solver stepped through; nothing is interpolated, in time or along the rail.
+Nothing is interpolated, in time or along the rail.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from trackig_core.frequency_domain.natural_frequencies import loaded_track
+from trackig_core.arrays import RealArray
+from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.time_domain import adaptive_grid
 from trackig_core.time_domain.decimation import RECORD_RATE
-from trackig_core.time_domain.grid import make_grid
+from trackig_core.time_domain.grid import Grid, make_grid
 from trackig_core.time_domain.time_stepping import Probes, Run
 from trackig_core.track.design import DEFAULT_STEP
 
@@ -55,21 +56,26 @@ class Motion:
         Height of the step.
     """
 
-    time: np.ndarray = field(repr=False)
-    position: np.ndarray = field(repr=False)
-    support_position: np.ndarray = field(repr=False)
-    wheel: np.ndarray = field(repr=False)
-    rail: np.ndarray = field(repr=False)
-    block: np.ndarray | None = field(repr=False)
+    time: RealArray = field(repr=False)
+    position: RealArray = field(repr=False)
+    support_position: RealArray = field(repr=False)
+    wheel: RealArray = field(repr=False)
+    rail: RealArray = field(repr=False)
+    block: RealArray | None = field(repr=False)
     step: float
 
 
-def film(design, bays=BAYS, step=DEFAULT_STEP, cancelled=None):
+def film(
+    design: Track,
+    bays: int = BAYS,
+    step: float = DEFAULT_STEP,
+    cancelled: Callable[[], object] | None = None,
+) -> Motion:
     """Return how a track moves in the first 0.3 s after the step.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     bays : int
         Bays to one side of the wheel, 1 to 60.
@@ -96,31 +102,32 @@ def film(design, bays=BAYS, step=DEFAULT_STEP, cancelled=None):
     """
     if not 1 <= bays <= MOST_BAYS:
         raise ValueError(f"bays = {bays!r}: give a whole number from 1 to {MOST_BAYS}")
-    grid = film_grid(design, bays)
+    model = track_model(design)
+    grid = film_grid(model, bays)
     elements = np.arange(bays * grid.elements_per_bay + 1)
     supports = np.arange(bays + 1)
     probes = Probes(rail=tuple(elements), blocks=tuple(supports))
-    run = Run(design, grid, memory_order=adaptive_grid.MEMORY_ORDER, step=step, probes=probes)
+    run = Run(model, grid, memory_order=adaptive_grid.MEMORY_ORDER, step=step, probes=probes)
     samples = run.collect(grid.steps, cancelled=cancelled)
     moved = samples[::STRIDE, grid.half_bays :]
     wheel, rail, block = np.split(moved, [1, 1 + elements.size], axis=1)
     return Motion(
         time=run.filter.times(len(samples))[::STRIDE],
-        position=elements * grid.dx,
-        support_position=supports * design.fastener_spacing,
+        position=elements.astype(np.float64) * grid.dx,
+        support_position=supports.astype(np.float64) * model.design.fastener_spacing,
         wheel=wheel[:, 0],
         rail=rail,
-        block=block if design.two_stage else None,
+        block=block if model.design.two_stage else None,
         step=step,
     )
 
 
-def film_grid(design, bays):
+def film_grid(design: Track, bays: int) -> Grid:
     """Return the grid of a film: live fidelity's, its ring no shorter than what is shown.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     bays : int
         Bays to one side of the wheel.
@@ -135,7 +142,8 @@ def film_grid(design, bays):
     DesignError, RunTooLargeError
         As in :func:`film`.
     """
-    chosen = adaptive_grid.plan(design, loaded_track(design)).grid
+    model = track_model(design)
+    chosen = adaptive_grid.plan(model).grid
     # the record is whole frames long, whatever the time step
     record = round(DURATION * RECORD_RATE) / RECORD_RATE
-    return make_grid(design, chosen.dt, bays=max(chosen.bays, 2 * bays + 1), record=record)
+    return make_grid(model, chosen.dt, bays=max(chosen.bays, 2 * bays + 1), record=record)

@@ -3,9 +3,8 @@
 Point receptance of the rail over a support, from the open-source package Rolland 26.08a1 (a
 semi-analytical, discretely supported beam on 241 supports), with the support's dynamic stiffness at
 each frequency from the three-term relaxation fit. Rail 60 kg/m, EI = 6.3798e6 N m2; for the
-Timoshenko rail G = 81 GPa and kappa = 0.4. Hz and m/N.
-
-The one rule: the file is data from elsewhere, and nothing here changes it.
+Timoshenko rail G = 81 GPa and kappa = 0.4. Hz and m/N. The file is data from elsewhere, and nothing here
+changes it.
 """
 
 from dataclasses import dataclass, field
@@ -13,6 +12,8 @@ from functools import cache
 from importlib.resources import files
 
 import numpy as np
+
+from trackig_core.arrays import ComplexArray, RealArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,13 +30,13 @@ class PeerReceptance:
         Receptance with a rail that shears and has rotational inertia.
     """
 
-    frequency: np.ndarray = field(repr=False)
-    euler: np.ndarray = field(repr=False)
-    timoshenko: np.ndarray = field(repr=False)
+    frequency: RealArray = field(repr=False)
+    euler: ComplexArray = field(repr=False)
+    timoshenko: ComplexArray = field(repr=False)
 
 
 @cache
-def peer_receptances():
+def peer_receptances() -> dict[str, PeerReceptance]:
     """Return the independent package's receptances.
 
     Returns

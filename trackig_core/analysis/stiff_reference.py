@@ -5,21 +5,23 @@ then still bounces on the contact spring, at sqrt(k_H/m_w)/2 pi, near 180 Hz for
 nothing but the pads damps it. Used as it is, that peak puts a false dip into the insertion gain of every
 track. The paper therefore stiffens the contact of its reference too, until the peak has left the bands:
 what is left is the inertia of the wheel, the straight line of 9 dB per octave, which is the rigid track's.
+Both references are computed by the frequency-domain solution and compared with the rigid track.
 
-Hz, dB. Source: the paper (see :mod:`trackig_core.track.design`). The one rule: both references are solved,
-exactly, and held against the rigid track; neither is drawn.
+Hz, dB. Source: the paper (see :mod:`trackig_core.track.design`).
 """
 
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_EDGES, decibels
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
-from trackig_core.frequency_domain.natural_frequencies import loaded_track
 from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
+from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.levels.insertion_gain import integrate_bands
-from trackig_core.track.design import DEFAULT_STEP
+from trackig_core.track.design import DEFAULT_STEP, TrackDesign
 
 STIFF = 1e12
 """Stiffness of a "very stiff" pad, and of a stiffened contact [N/m]: a thousand times an ordinary contact."""
@@ -44,21 +46,21 @@ class StiffReferences:
         Insertion gain of the design per band against each of the two, and against the rigid track.
     """
 
-    frequency: np.ndarray = field(repr=False)
-    real: np.ndarray = field(repr=False)
-    stiffened: np.ndarray = field(repr=False)
+    frequency: RealArray = field(repr=False)
+    real: RealArray = field(repr=False)
+    stiffened: RealArray = field(repr=False)
     contact_resonance: float
-    gain_real: np.ndarray = field(repr=False)
-    gain_stiffened: np.ndarray = field(repr=False)
-    gain_rigid: np.ndarray = field(repr=False)
+    gain_real: RealArray = field(repr=False)
+    gain_stiffened: RealArray = field(repr=False)
+    gain_rigid: RealArray = field(repr=False)
 
 
-def very_stiff(design, stiffen_contact):
+def very_stiff(design: TrackDesign, stiffen_contact: bool) -> TrackDesign:
     """Return a design's rail and wheel on supports that hardly move.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track whose rail, spacing, wheel and contact spring are kept.
     stiffen_contact : bool
         Whether the contact spring is made as stiff as the supports.
@@ -78,12 +80,12 @@ def very_stiff(design, stiffen_contact):
     )
 
 
-def stiff_references(design, frequency):
-    """Hold a design against very stiff tracks, with and without their false peak.
+def stiff_references(design: Track, frequency: ArrayLike) -> StiffReferences:
+    """Compare a design with very stiff tracks, with and without their false peak.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     frequency : array_like (frequencies,)
         Frequencies of the narrow-band levels [Hz]; that of the contact resonance is added.
@@ -98,24 +100,28 @@ def stiff_references(design, frequency):
     DesignError
         If the design's exact answer has no bound, for want of any loss.
     """
-    require_damping(design)
-    resonance = float(np.sqrt(design.contact_stiffness / design.wheel_mass) / (2 * np.pi))
+    model = track_model(design)
+    require_damping(model)
+    track = model.design
+    resonance = float(np.sqrt(track.contact_stiffness / track.wheel_mass) / (2 * np.pi))
     frequency = np.union1d(np.asarray(frequency, dtype=float), resonance)
-    rigid = (2 * np.pi * frequency * design.wheel_mass * DEFAULT_STEP) ** 2
-    references = [very_stiff(design, stiffen_contact) for stiffen_contact in (False, True)]
-    levels = [decibels(exact_spectrum(each, frequency, DEFAULT_STEP).energy / rigid) for each in references]
-    energies = [_band_energy(each) for each in references]
-    own = _band_energy(design)
-    gains = [decibels(own / energy) for energy in (*energies, _rigid_band_energy(design))]
-    return StiffReferences(frequency, *levels, resonance, *gains)
+    rigid = (2 * np.pi * frequency * track.wheel_mass * DEFAULT_STEP) ** 2
+    references = [track_model(very_stiff(track, stiffen_contact)) for stiffen_contact in (False, True)]
+    real, stiffened = (
+        decibels(exact_spectrum(each, frequency, DEFAULT_STEP).energy / rigid) for each in references
+    )
+    energies = [*(_band_energy(each) for each in references), _rigid_band_energy(track)]
+    own = _band_energy(model)
+    gain_real, gain_stiffened, gain_rigid = (decibels(own / energy) for energy in energies)
+    return StiffReferences(frequency, real, stiffened, resonance, gain_real, gain_stiffened, gain_rigid)
 
 
-def _rigid_band_energy(design):
+def _rigid_band_energy(design: TrackDesign) -> RealArray:
     """Return the energy per band of the wheel's inertia force, (m_w w step)^2, integrated (21,) [N2 s]."""
     return (2 * np.pi * design.wheel_mass * DEFAULT_STEP) ** 2 * np.diff(BAND_EDGES**3) / 3
 
 
-def _band_energy(design):
+def _band_energy(design: Track) -> RealArray:
     """Return the energy of the force into the ground per band (21,) [N2 s]."""
-    spectrum = banded_spectrum(design, loaded_track(design))
+    spectrum = banded_spectrum(design)
     return integrate_bands(spectrum.frequency, spectrum.energy)

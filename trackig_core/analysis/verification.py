@@ -1,20 +1,22 @@
-"""A solution held against theory: how far it is from the exact answer, and why.
+"""A solution compared with theory: how far it is from the exact answer, and why.
 
 A run differs from the exact continuous-time answer of its lattice by what its time step costs, and from
-the exact answer of its own scheme (the z-transform) by mistakes alone. Hz, dB, s. The theory is that of
-:mod:`trackig_core.frequency_domain.floquet_waves`.
-
-The one rule: nothing here is taken from the run but its grid; the run is only compared.
+the exact answer of its own scheme (the z-transform) by mistakes alone. Nothing but its grid is taken from the
+run. Hz, dB, s. The theory is that of :mod:`trackig_core.frequency_domain.floquet_waves`.
 """
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from trackig_core.arrays import IntArray, RealArray
 from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
-from trackig_core.frequency_domain.floquet_waves import Lattice, exact_spectrum
-from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
-from trackig_core.results import ForceSpectrum, Solution
+from trackig_core.frequency_domain.floquet_waves import exact_spectrum
+from trackig_core.frequency_domain.lattice import Lattice
+from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.frequency_domain.track_model import track_model
+from trackig_core.results import ForceSpectrum
+from trackig_core.solution import Solution
 from trackig_core.time_domain.grid import stable_time_step
 
 FACTORS = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
@@ -26,7 +28,7 @@ ELEMENTS = np.array([2, 3, 4, 6, 8, 12, 24])
 
 @dataclass(frozen=True, eq=False)
 class Verification:
-    """What theory says of a run.
+    """The frequency-domain solutions that a run is compared with.
 
     Attributes
     ----------
@@ -46,15 +48,15 @@ class Verification:
 
     exact: ForceSpectrum
     scheme: ForceSpectrum
-    time_steps: np.ndarray = field(repr=False)
-    first_order_errors: np.ndarray = field(repr=False)
-    second_order_errors: np.ndarray = field(repr=False)
-    elements_per_bay: np.ndarray = field(repr=False)
-    element_errors: np.ndarray = field(repr=False)
+    time_steps: RealArray = field(repr=False)
+    first_order_errors: RealArray = field(repr=False)
+    second_order_errors: RealArray = field(repr=False)
+    elements_per_bay: IntArray = field(repr=False)
+    element_errors: RealArray = field(repr=False)
 
 
-def verify(solution):
-    """Compute what theory says of a time-stepped solution.
+def verify(solution: Solution) -> Verification:
+    """Compare a time-stepped solution with the frequency-domain solution.
 
     Parameters
     ----------
@@ -77,22 +79,22 @@ def verify(solution):
     """
     if not isinstance(solution, Solution):
         raise TypeError(f"{type(solution).__name__} is no Solution: give what solve() returned")
-    grid, design = solution.grid, solution.design
+    grid = solution.grid
     if grid is None:
         raise ValueError(
             f"a solution of fidelity {solution.fidelity!r} was not stepped in time: give one that was"
         )
-    require_damping(design)
+    model = track_model(solution.design)
     lattice = Lattice(grid.elements_per_bay, grid.bays, grid.dt)
     time_steps = grid.dt * FACTORS
-    time_steps = time_steps[time_steps < stable_time_step(design, grid.dx)]
+    time_steps = time_steps[time_steps < stable_time_step(model, grid.dx)]
     step = solution.spectrum.step
     return Verification(
-        exact=banded_spectrum(design, solution.natural_frequencies.loaded_track, step=step),
-        scheme=exact_spectrum(design, solution.spectrum.frequency, step, lattice),
+        exact=banded_spectrum(model, step=step),
+        scheme=exact_spectrum(model, solution.spectrum.frequency, step, lattice),
         time_steps=time_steps,
-        first_order_errors=time_step_errors(design, time_steps, memory_order=1),
-        second_order_errors=time_step_errors(design, time_steps, memory_order=2),
+        first_order_errors=time_step_errors(model, time_steps, memory_order=1),
+        second_order_errors=time_step_errors(model, time_steps, memory_order=2),
         elements_per_bay=ELEMENTS,
-        element_errors=element_errors(design, ELEMENTS),
+        element_errors=element_errors(model, ELEMENTS),
     )

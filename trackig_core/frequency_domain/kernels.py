@@ -8,9 +8,19 @@ another file.
 
 from numba import njit
 
+from trackig_core.arrays import ComplexArray, RealArray
+
 
 @njit(nogil=True, cache=True)
-def bay_waves(frequency_squared, support_stiffness, bending, element_mass, per_bay, multipliers, amplitudes):
+def bay_waves(
+    frequency_squared: RealArray,
+    support_stiffness: ComplexArray,
+    bending: float,
+    element_mass: float,
+    per_bay: int,
+    multipliers: ComplexArray,
+    amplitudes: ComplexArray,
+) -> None:
     """Solve the supported rail exactly: two waves that decay from bay to bay.
 
     The rail displacement at support s per unit force at support 0 is
@@ -65,7 +75,7 @@ def bay_waves(frequency_squared, support_stiffness, bending, element_mass, per_b
 
 
 @njit(nogil=True, cache=True)
-def chebyshev_excess(excess, degree):
+def chebyshev_excess(excess: float, degree: int) -> tuple[float, float]:
     """Return 2 T_n(1 + x) - 2 and U_{n-1}(1 + x) for a small x, without cancellation.
 
     Parameters
@@ -89,7 +99,7 @@ def chebyshev_excess(excess, degree):
 
 
 @njit(nogil=True, cache=True)
-def rail_compliance(frequency_squared, bending, element_mass, per_bay):
+def rail_compliance(frequency_squared: float, bending: float, element_mass: float, per_bay: int) -> float:
     """Return how far the rail gives way over every support to equal forces that oppose its motion.
 
     About 1 / (mass of a bay times w^2): the rail moves as one, but for bending between supports.

@@ -1,4 +1,4 @@
-"""The steady shape: how rail, blocks and wheel move at one frequency, by the exact twin.
+"""The steady shape: how rail, blocks and wheel move at one frequency, by the frequency-domain solution.
 
 Complex displacements per unit roughness, time dependence exp(+i w t), positive towards the ground: at the
 phase angle p the track stands at Re(displacement exp(i p)). SI units and Hz. Source of the model: the
@@ -10,17 +10,20 @@ rail,
     u[i-2] - 4 u[i-1] + 6 u[i] - 4 u[i+1] + u[i+2] = r^2 u[i],    r^2 = m w^2 / (EI/dx^3),
 
 with u[i + elements] = multiplier u[i] from bay to bay: as many linear equations as there are elements
-between two supports. The solution decays from the wheel outwards, and two waves are all that decay.
-
-The one rule: no element is interpolated: each is the lattice's own exact displacement.
+between two supports. The solution decays from the wheel outwards, and two waves are all that decay. No
+element is interpolated.
 """
 
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from trackig_core.frequency_domain.floquet_waves import INFINITE, contact_force, dynamic_stiffness, waves
-from trackig_core.track.viscoelastic_law import laws
+from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.frequency_domain.floquet_waves import Waves, contact_force, waves
+from trackig_core.frequency_domain.lattice import INFINITE, Lattice
+from trackig_core.frequency_domain.track_model import Track, track_model
+from trackig_core.track.design import TrackDesign
 
 _FOURTH_DIFFERENCE = ((-2, 1.0), (-1, -4.0), (0, 6.0), (1, -4.0), (2, 1.0))
 """Offset and weight of the neighbours by which a rail element is bent [-]."""
@@ -46,20 +49,22 @@ class SteadyShape:
         Displacement of the wheel.
     """
 
-    frequency: np.ndarray = field(repr=False)
-    position: np.ndarray = field(repr=False)
-    rail: np.ndarray = field(repr=False)
-    support_position: np.ndarray = field(repr=False)
-    block: np.ndarray | None = field(repr=False)
-    wheel: np.ndarray = field(repr=False)
+    frequency: RealArray = field(repr=False)
+    position: RealArray = field(repr=False)
+    rail: ComplexArray = field(repr=False)
+    support_position: RealArray = field(repr=False)
+    block: ComplexArray | None = field(repr=False)
+    wheel: ComplexArray = field(repr=False)
 
 
-def steady_shape(design, frequency, bays=12, lattice=INFINITE):
+def steady_shape(
+    design: Track, frequency: ArrayLike, bays: int = 12, lattice: Lattice = INFINITE
+) -> SteadyShape:
     """Return how the track moves at given frequencies, some bays either side of the wheel.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track and its wheel.
     frequency : array_like (frequencies,)
         Frequencies [Hz], greater than zero.
@@ -83,30 +88,30 @@ def steady_shape(design, frequency, bays=12, lattice=INFINITE):
     per_bay = lattice.elements_per_bay
     elements = np.arange(-bays * per_bay, bays * per_bay + 1)
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
-    contact = contact_force(design, frequency, lattice)
-    rail = contact * rail_receptance(design, frequency, elements, lattice)
-    block = None
-    if design.two_stage:
-        pad, boot = (dynamic_stiffness(law, frequency, lattice) for law in laws(design))
-        inertia = design.block_mass * lattice.frequency_squared(frequency)
-        block = rail[::per_bay] * pad / (pad + boot - inertia)
+    model = track_model(design)
+    contact = contact_force(model, frequency, lattice)
+    rail = contact * rail_receptance(model, frequency, elements, lattice)
+    supports = model.supports(frequency, lattice)
+    spacing, wheel_mass = model.design.fastener_spacing, model.design.wheel_mass
     return SteadyShape(
         frequency=frequency,
-        position=elements * design.fastener_spacing / per_bay,
+        position=elements * spacing / per_bay,
         rail=rail,
-        support_position=elements[::per_bay] // per_bay * design.fastener_spacing,
-        block=block,
+        support_position=(elements[::per_bay] // per_bay).astype(np.float64) * spacing,
+        block=None if supports.block is None else rail[::per_bay] * supports.pad / supports.block,
         # the contact pushes the wheel up: -m w^2 W = -contact
-        wheel=contact / (design.wheel_mass * lattice.frequency_squared(frequency)),
+        wheel=contact / (wheel_mass * lattice.frequency_squared(frequency)),
     )
 
 
-def rail_receptance(design, frequency, element=0, lattice=INFINITE):
+def rail_receptance(
+    design: Track, frequency: ArrayLike, element: ArrayLike = 0, lattice: Lattice = INFINITE
+) -> ComplexArray:
     """Return the displacement of any rail element per unit force on the rail over support 0.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     frequency : array_like (frequencies,)
         Frequencies [Hz], greater than zero.
@@ -125,8 +130,9 @@ def rail_receptance(design, frequency, element=0, lattice=INFINITE):
     ValueError
         If a frequency is not greater than zero.
     """
-    track = waves(design, frequency, lattice)
-    shapes = _bay_shapes(design, track, lattice.elements_per_bay)
+    model = track_model(design)
+    track = waves(model, frequency, lattice)
+    shapes = _bay_shapes(model.design, track, lattice.elements_per_bay)
     away = np.abs(np.asarray(element))
     if lattice.bays is None:
         shape = _wave(track, shapes, away)
@@ -139,13 +145,13 @@ def rail_receptance(design, frequency, element=0, lattice=INFINITE):
     return np.sum(track.amplitudes * shape, axis=-2)
 
 
-def _wave(track, shapes, element):
+def _wave(track: Waves, shapes: ComplexArray, element: NDArray[np.int_]) -> ComplexArray:
     """Return both waves at given elements (elements, 2, frequencies) [-]."""
     bay, within = np.divmod(element, len(shapes))
     return shapes[within] * track.multipliers ** bay[..., None, None]
 
 
-def _bay_shapes(design, track, per_bay):
+def _bay_shapes(design: TrackDesign, track: Waves, per_bay: int) -> ComplexArray:
     """Return both waves within one bay, 1 over the support that it begins with (per_bay, 2, frequencies)."""
     dx = design.fastener_spacing / per_bay
     inertia = design.rail.mass_per_metre * dx**4 / design.rail.bending_stiffness * track.frequency_squared

@@ -1,16 +1,22 @@
-"""Exact spectra over the bands, on a frequency axis that is refined until it shows every peak.
+"""Spectra and insertion gain over the bands, on a frequency axis that is refined until it shows every peak.
 
-Hz and N2 s2. Source of the model: the paper (see :mod:`trackig_core.track.design`); the lattice is solved by
-:mod:`trackig_core.frequency_domain.floquet_waves`.
+Hz, N2 s2 and dB. Source of the model: the paper (see :mod:`trackig_core.track.design`); the lattice is
+solved by :mod:`trackig_core.frequency_domain.floquet_waves`.
 """
+
+from collections.abc import Callable
 
 import numpy as np
 
+from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION
-from trackig_core.frequency_domain.floquet_waves import INFINITE, exact_spectrum
-from trackig_core.results import ForceSpectrum
+from trackig_core.frequency_domain.floquet_waves import exact_spectrum
+from trackig_core.frequency_domain.lattice import INFINITE, Lattice
+from trackig_core.frequency_domain.natural_frequencies import loaded_track
+from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
+from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import DEFAULT_STEP, DesignError
-from trackig_core.track.viscoelastic_law import laws
 
 STRAIGHTNESS = 0.05
 """Bend of a refined spectrum between neighbouring frequencies that is left alone [dB]."""
@@ -26,12 +32,14 @@ MOST_FREQUENCIES = 20_000
 small that rounding shows."""
 
 
-def resolved_spectrum(design, frequency, step, lattice=INFINITE):
-    """Return an exact spectrum on a frequency axis that is refined until it shows every peak.
+def resolved_spectrum(
+    design: Track, frequency: RealArray, step: float, lattice: Lattice = INFINITE
+) -> ForceSpectrum:
+    """Return a track's spectrum on a frequency axis that is refined until it shows every peak.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track and its wheel.
     frequency : numpy.ndarray (frequencies,)
         Frequencies to begin with [Hz], ascending and greater than zero; all are kept.
@@ -45,10 +53,13 @@ def resolved_spectrum(design, frequency, step, lattice=INFINITE):
     ForceSpectrum
         Energy at the given and the added frequencies.
     """
-    return refined_spectrum(lambda between: exact_spectrum(design, between, step, lattice), frequency)
+    model = track_model(design)
+    return refined_spectrum(lambda between: exact_spectrum(model, between, step, lattice), frequency)
 
 
-def refined_spectrum(spectrum_at, frequency):
+def refined_spectrum(
+    spectrum_at: Callable[[RealArray], ForceSpectrum], frequency: RealArray
+) -> ForceSpectrum:
     """Return any model's spectrum on a frequency axis that is refined until it shows every peak.
 
     Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
@@ -76,7 +87,7 @@ def refined_spectrum(spectrum_at, frequency):
         between = spectrum_at((left[0] + right[0]) / 2)
         middle = np.array([between.frequency, between.energy, between.coherent_energy])
         ratio = middle[1:] ** 2 / (left[1:] * right[1:])
-        with np.errstate(invalid="ignore", divide="ignore"):  # energies that rounding drowns; told below
+        with np.errstate(invalid="ignore", divide="ignore"):  # energies that rounding drowns; reported below
             bend = np.abs(np.log(ratio)).max(axis=0)
         straight[halved] = ~(bend > 2 * STRAIGHTNESS / 10 * np.log(10))
         straight = np.insert(straight, halved, straight[halved])
@@ -87,7 +98,7 @@ def refined_spectrum(spectrum_at, frequency):
     return ForceSpectrum(frequency=rows[0], energy=rows[1], coherent_energy=rows[2], step=known.step)
 
 
-def _too_wide(intervals):
+def _too_wide(intervals: RealArray) -> BoolArray:
     """Return which intervals are much wider than a neighbour: a peak's flank may look straight by chance."""
     neighbour = np.full_like(intervals, np.inf)
     neighbour[1:] = intervals[:-1]
@@ -95,14 +106,14 @@ def _too_wide(intervals):
     return intervals > WIDEST_STEP * neighbour
 
 
-def require_damping(design):
+def require_damping(design: Track) -> None:
     """Raise a DesignError if a design has no exact spectrum.
 
     With a loss-free spring on the ground there is a frequency at which waves never die along the track.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
 
     Raises
@@ -110,24 +121,24 @@ def require_damping(design):
     DesignError
         If the spring that stands on the ground has no loss.
     """
-    pad, boot = laws(design)
-    if not (boot or pad).strengths:
-        field, value = _grounded_loss(design)
+    model = track_model(design)
+    if not model.springs[-1].strengths:
+        field, value = _grounded_loss(model)
         raise DesignError(field, value, "more than 0: without loss the exact spectrum has no bound")
 
 
-def _grounded_loss(design):
+def _grounded_loss(model: TrackModel) -> tuple[str, object]:
     """Return name and value of the loss factor of the spring that stands on the ground."""
-    field = "boot_loss_factor" if design.two_stage else "pad_loss_factor"
-    return field, getattr(design, field)
+    field = "boot_loss_factor" if model.design.two_stage else "pad_loss_factor"
+    return field, getattr(model.design, field)
 
 
-def band_frequencies(loaded_track):
+def band_frequencies(lowest: float) -> RealArray:
     """Return frequencies from which a spectrum over all bands may be refined.
 
     Parameters
     ----------
-    loaded_track : float
+    lowest : float
         Loaded-track frequency, at a tenth of which the line is anchored [Hz].
 
     Returns
@@ -135,21 +146,19 @@ def band_frequencies(loaded_track):
     numpy.ndarray (frequencies,)
         Frequencies [Hz], ascending, among them every band edge and the anchor if it lies below the bands.
     """
-    anchor = LINE_FRACTION * loaded_track
+    anchor = LINE_FRACTION * lowest
     between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
     below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
     return np.concatenate([below, between])
 
 
-def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
-    """Return the exact spectrum over all one-third-octave bands, and down to where the line is anchored.
+def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DEFAULT_STEP) -> ForceSpectrum:
+    """Return the spectrum over all one-third-octave bands, and down to where the line is anchored.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track and its wheel.
-    loaded_track : float
-        Its loaded-track frequency [Hz].
     lattice : Lattice
         What to solve.
     step : float
@@ -163,10 +172,43 @@ def banded_spectrum(design, loaded_track, lattice=INFINITE, step=DEFAULT_STEP):
     Raises
     ------
     DesignError
-        If the spectrum cannot be told from rounding, as with next to no loss.
+        If the spring on the ground has no loss, or so little that the spectrum cannot be told from rounding.
     """
-    spectrum = resolved_spectrum(design, band_frequencies(loaded_track), step, lattice)
+    model = track_model(design)
+    require_damping(model)
+    spectrum = resolved_spectrum(model, band_frequencies(loaded_track(model)), step, lattice)
     if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
-        field, value = _grounded_loss(design)
+        field, value = _grounded_loss(model)
         raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")
     return spectrum
+
+
+def banded_gain(
+    design: Track, lattice: Lattice = INFINITE, reference: str = "line", summation: str = "energy"
+) -> InsertionGain:
+    """Return the insertion gain of a track by the frequency-domain solution.
+
+    Parameters
+    ----------
+    design : TrackDesign or TrackModel
+        The track and its wheel.
+    lattice : Lattice
+        What to solve.
+    reference, summation : str
+        As for :func:`trackig_core.insertion_gain`.
+
+    Returns
+    -------
+    InsertionGain
+        Levels and the energies behind them.
+
+    Raises
+    ------
+    DesignError
+        As for :func:`banded_spectrum`.
+    ValueError
+        If ``reference`` or ``summation`` is not one of the choices.
+    """
+    model = track_model(design)
+    spectrum = banded_spectrum(model, lattice)
+    return insertion_gain(spectrum, model.design, loaded_track(model), reference, summation)

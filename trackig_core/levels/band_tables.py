@@ -4,7 +4,7 @@ Hz, dB. A CSV file has two columns, ``frequency_hz`` and the level. It may have 
 with ``#``, and blank lines; an empty level leaves its band out. Commas, semicolons or tabs separate; after
 semicolons or tabs a decimal comma is read too, as European spreadsheets write it. Bands: IEC 61260-1.
 
-The one rule: a table that exists is sound. A file is read as a whole or refused as a whole, and the
+A table that exists is sound. A file is read as a whole or refused as a whole, and the
 message names line and column.
 """
 
@@ -13,11 +13,13 @@ import io
 import math
 import numbers
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 
@@ -52,14 +54,16 @@ class BandTableError(ValueError):
         Where, both counted from 1: the line of a file, or the row of a table; None if no place is at fault.
     """
 
-    def __init__(self, message, line=None, column=None, counted="line"):
+    def __init__(
+        self, message: str, line: int | None = None, column: int | None = None, counted: str = "line"
+    ) -> None:
         self.line, self.column = line, column
         self._given = message, line, column, counted
         places = ((counted, line), ("column", column))
         where = ", ".join(f"{word} {number}" for word, number in places if number is not None)
         super().__init__(f"{where}: {message}" if where else message)
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type, tuple[str, int | None, int | None, str]]:
         """Let the error pass between processes."""
         return type(self), self._given
 
@@ -87,7 +91,7 @@ class Quantity:
     error: type[BandTableError]
 
     @property
-    def allowed(self):
+    def allowed(self) -> str:
         """What may be given for a level."""
         return f"a number from {self.low:g} to {self.high:g} dB"
 
@@ -115,7 +119,7 @@ class BandTable:
 
     quantity: ClassVar[Quantity]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Check every row once; frequencies become nominal, rows ascend."""
         error = self.quantity.error
         if not is_name(self.name, LONGEST_TITLE):
@@ -123,7 +127,7 @@ class BandTable:
         object.__setattr__(self, "points", _checked(_rows(self.points, self.quantity), self.quantity, "row"))
 
     @classmethod
-    def from_csv(cls, data, name=None):
+    def from_csv(cls, data: str | bytes, name: str | None = None) -> Self:
         """Read a CSV file.
 
         Parameters
@@ -144,14 +148,14 @@ class BandTable:
             If the file cannot be used; its ``line`` and ``column`` say where.
         """
         points = _checked(_read(data, cls.quantity), cls.quantity, "line")
-        return cls(points) if name is None else cls(points, name)
+        return cls(points) if name is None else cls(points, name)  # type: ignore[call-arg]  # subclasses name themselves
 
-    def to_csv(self):
+    def to_csv(self) -> str:
         """Return the table as a CSV file (str), which :meth:`from_csv` reads back exactly."""
         return _written(self.quantity, self.points)
 
     @classmethod
-    def template_csv(cls):
+    def template_csv(cls) -> str:
         """Return a CSV file (str) of all bands, their levels left to be filled in."""
         quantity = cls.quantity
         explained = (
@@ -161,7 +165,7 @@ class BandTable:
         return explained + _written(quantity, [(frequency, "") for frequency in NOMINAL])
 
     @property
-    def levels(self):
+    def levels(self) -> RealArray:
         """Level per band (21,) [dB], NaN where there is none."""
         levels = np.full(BAND_CENTRES.size, np.nan)
         for frequency, level in self.points:
@@ -169,13 +173,13 @@ class BandTable:
         return levels
 
 
-def _written(quantity, points):
+def _written(quantity: Quantity, points: Iterable[tuple[float, float | str]]) -> str:
     lines = [f"{FREQUENCY_COLUMN},{quantity.column}"]
     lines += [f"{frequency:g},{level}" for frequency, level in points]
     return "\n".join(lines) + "\n"
 
 
-def _rows(points, quantity):
+def _rows(points: Iterable[Iterable[Any]], quantity: Quantity) -> list[tuple[int, Any, Any]]:
     """Return given rows as (number, frequency, level)."""
     columns = f"{FREQUENCY_COLUMN}, {quantity.column}"
     try:
@@ -188,9 +192,11 @@ def _rows(points, quantity):
     return [(number, *row) for number, row in enumerate(rows, start=1)]
 
 
-def _checked(rows, quantity, counted):
+def _checked(
+    rows: Iterable[tuple[int, Any, Any]], quantity: Quantity, counted: str
+) -> tuple[tuple[float, float], ...]:
     """Return (line, frequency, level) as points in the order of the bands, or raise the quantity's error."""
-    found = {}
+    found: dict[int, tuple[int, float]] = {}
     for line, frequency, level in rows:
         band = _band(frequency)
         if band is None:
@@ -211,7 +217,7 @@ def _checked(rows, quantity, counted):
     return tuple((NOMINAL[band], found[band][1]) for band in sorted(found))
 
 
-def _number(value):
+def _number(value: object) -> float | None:
     """Return a real, finite number as a float, else None; a bool is not a number."""
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
         return None
@@ -222,7 +228,7 @@ def _number(value):
     return number if math.isfinite(number) else None
 
 
-def _band(frequency):
+def _band(frequency: object) -> int | None:
     """Return the index of the band that a frequency [Hz] names, or None."""
     number = _number(frequency)
     if number is None:
@@ -233,7 +239,7 @@ def _band(frequency):
     return None
 
 
-def _unknown_band(frequency):
+def _unknown_band(frequency: object) -> str:
     shown = f"{FREQUENCY_COLUMN} = {brief(frequency)}"
     number = _number(frequency)
     if number is None or not NOMINAL[0] <= number <= NOMINAL[-1]:
@@ -243,7 +249,7 @@ def _unknown_band(frequency):
     return f"{shown} is the middle of no one-third-octave band: the nearest is {near} Hz"
 
 
-def _read(data, quantity):
+def _read(data: str | bytes, quantity: Quantity) -> list[tuple[int, Any, Any]]:
     """Return the rows of a CSV file as (line, frequency, level), those without a level left out."""
     lines = re.split("\r\n|\r|\n", _decoded(data, quantity.error))
     if len(lines) > MOST_LINES:
@@ -253,7 +259,7 @@ def _read(data, quantity):
     cells = [(number, _cells(line, separator)) for number, line in full]
     if cells and _parsed(cells[0][1][0], separator) is None:
         _check_header(*cells.pop(0), quantity)
-    rows = []
+    rows: list[tuple[int, Any, Any]] = []
     for number, row in cells:
         if len(row) > 2:
             message = (
@@ -265,40 +271,44 @@ def _read(data, quantity):
         if _band(frequency) is None:
             raise quantity.error(_unknown_band(frequency), number, 1)
         if level:
-            rows.append((number, frequency, *level))
+            rows.append((number, frequency, level[0]))
     return rows
 
 
-def _separator(line):
+def _separator(line: str) -> str:
     """Return what separates the columns of a table that begins with a line."""
     if _SPACED.fullmatch(line):
         return " "
     return next((each for each in "\t;" if each in line), ",")
 
 
-def _decoded(data, error):
+def _decoded(data: str | bytes, error: type[BandTableError]) -> str:
     """Return a file's text."""
     if len(data) > MOST_BYTES:
         raise error(f"the file is larger than {MOST_BYTES // 1024} kB: a table has one short line per band")
-    if isinstance(data, bytes):
-        # spreadsheets write UTF-16 with a mark, or a national code, whose figures are plain all the same
-        for code in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
-            try:
-                data = data.decode(code)
-                break
-            except UnicodeDecodeError:
-                continue
-    if not isinstance(data, str) or "\0" in data:
+    text = data if isinstance(data, str) else _text(data)
+    if text is None or "\0" in text:
         raise error("this is not a text file: save the table as CSV")
-    return data.removeprefix("\N{BYTE ORDER MARK}")
+    return text.removeprefix("\N{BYTE ORDER MARK}")
 
 
-def _is_empty(line):
+def _text(data: bytes) -> str | None:
+    """Return what bytes say, or None if they are no text."""
+    # spreadsheets write UTF-16 with a mark, or a national code, whose figures are plain all the same
+    for code in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
+        try:
+            return data.decode(code)
+        except UnicodeDecodeError:
+            continue
+    return None
+
+
+def _is_empty(line: str) -> bool:
     """Return whether a line is blank or a comment."""
     return not line.strip(" \t;,") or line.lstrip(' \t"').startswith("#")
 
 
-def _cells(line, separator):
+def _cells(line: str, separator: str) -> list[str]:
     """Return the cells of a line without empty ones at its end; the first stays."""
     if separator == " ":
         return line.split()
@@ -308,7 +318,7 @@ def _cells(line, separator):
     return cells
 
 
-def _parsed(cell, separator, otherwise=None):
+def _parsed(cell: str, separator: str, otherwise: str | None = None) -> float | str | None:
     """Return the number that a cell holds, else ``otherwise``."""
     text = cell.replace("\N{MINUS SIGN}", "-")
     if separator != "," and "." not in text:
@@ -316,7 +326,7 @@ def _parsed(cell, separator, otherwise=None):
     return float(text) if _NUMBER.fullmatch(text) else otherwise
 
 
-def _check_header(line, cells, quantity):
+def _check_header(line: int, cells: Sequence[str], quantity: Quantity) -> None:
     wanted = (FREQUENCY_COLUMN, quantity.column)
     for column, name in enumerate(wanted, start=1):
         given = cells[column - 1] if len(cells) >= column else ""

@@ -2,15 +2,17 @@
 
 Hz, N2 s2 and dB. Source: the paper (see :mod:`trackig_core.track.design`) for the straight reference line
 and the energy sum; IEC 61260-1 for the bands.
-
-The one rule: bands are integrated to their exact edges, whatever the spacing of the spectrum.
 """
+
+from collections.abc import Collection
 
 import numpy as np
 from scipy.interpolate import CubicSpline, make_interp_spline
 
+from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
-from trackig_core.results import InsertionGain
+from trackig_core.results import ForceSpectrum, InsertionGain
+from trackig_core.track.design import TrackDesign
 
 REFERENCES = ("line", "rigid")
 """References: the paper's straight line, or the exact rigid track."""
@@ -23,7 +25,13 @@ ANCHOR_POINTS = 8
 forgets what lies further away by a factor of four per point."""
 
 
-def insertion_gain(spectrum, design, loaded_track, reference="line", summation="energy"):
+def insertion_gain(
+    spectrum: ForceSpectrum,
+    design: TrackDesign,
+    loaded_track: float,
+    reference: str = "line",
+    summation: str = "energy",
+) -> InsertionGain:
     """Return the insertion gain of a track per one-third-octave band.
 
     Parameters
@@ -76,18 +84,18 @@ def insertion_gain(spectrum, design, loaded_track, reference="line", summation="
     )
 
 
-def summed_energy(spectrum, summation):
+def summed_energy(spectrum: ForceSpectrum, summation: str) -> RealArray:
     """Return the energy of a spectrum by the chosen sum over the supports (frequencies,) [N2 s2]."""
     return spectrum.energy if summation == "energy" else spectrum.coherent_energy
 
 
-def check_choice(name, value, choices):
+def check_choice(name: str, value: object, choices: Collection[str]) -> None:
     """Raise a ValueError that names the choices if ``value`` is none of them."""
     if value not in choices:
         raise ValueError(f"{name} = {value!r}: give {' or '.join(repr(choice) for choice in choices)}")
 
 
-def integrate_bands(frequency, density):
+def integrate_bands(frequency: RealArray, density: RealArray) -> RealArray:
     """Integrate a spectral density over the one-third-octave bands.
 
     The density is joined by a cubic spline, which is integrated to the exact band edges: a resonance

@@ -2,7 +2,7 @@
 
 Levels in dB re whatever the source is given in; Hz. A-weighting: IEC 61672-1:2013, annex E.
 
-The one rule: only the bands that the source has are summed, so two levels compare only if they come of
+Only the bands that the source has are summed, so two levels compare only if they come of
 one source.
 """
 
@@ -10,7 +10,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_CENTRES, decibels
 from trackig_core.levels.band_tables import BandTable, BandTableError, Quantity
 
@@ -18,7 +20,7 @@ _POLES = (20.598997, 107.65265, 737.86223, 12194.217)
 """Pole frequencies f1 to f4 of the A-weighting [Hz]; IEC 61672-1:2013, annex E."""
 
 
-def a_weighting(frequency):
+def a_weighting(frequency: ArrayLike) -> RealArray:
     """Return the A-weighting by its analytic formula.
 
     Parameters
@@ -35,7 +37,7 @@ def a_weighting(frequency):
     return 20 * np.log10(_response(frequency) / _response(1000.0))
 
 
-def _response(frequency):
+def _response(frequency: ArrayLike) -> RealArray:
     """Return the A-weighting's magnitude but for a factor; IEC 61672-1:2013, equation E.6."""
     squared = np.square(np.asarray(frequency, dtype=float))
     first, second, third, fourth = np.square(_POLES)
@@ -73,11 +75,11 @@ class TrackLevel:
         The same, A-weighted.
     """
 
-    bands: np.ndarray = field(repr=False)
+    bands: RealArray = field(repr=False)
     unweighted: float
     a_weighted: float
 
-    def relative_to(self, base):
+    def relative_to(self, base: "TrackLevel") -> LevelDifference:
         """Return by how much this level exceeds another of the same source (LevelDifference)."""
         return LevelDifference(self.unweighted - base.unweighted, self.a_weighted - base.a_weighted)
 
@@ -109,7 +111,7 @@ class SourceSpectrum(BandTable):
         error=SourceError,
     )
 
-    def with_track(self, insertion_gain):
+    def with_track(self, insertion_gain: ArrayLike) -> TrackLevel:
         """Return the level with a track.
 
         Parameters
@@ -134,6 +136,6 @@ class SourceSpectrum(BandTable):
         return TrackLevel(bands, _summed(bands), _summed(bands + A_WEIGHTING))
 
 
-def _summed(levels):
+def _summed(levels: RealArray) -> float:
     """Return the level of the summed energies of the bands that have one [dB]."""
     return float(decibels(np.nansum(10 ** (levels / 10))))

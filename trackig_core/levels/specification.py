@@ -1,16 +1,18 @@
 """The curve that a track has to meet: the greatest insertion gain allowed per one-third-octave band.
 
 dB, Hz. The verdict compares levels as they are, before any rounding: a margin of exactly zero complies,
-and a margin that one decimal would show as zero is told with as many decimals as it needs.
+and a margin that one decimal would show as zero is shown with as many decimals as it needs.
 
-The one rule: a track complies if it keeps every band that is specified; bands without a limit say nothing.
+A track complies if it keeps every band that is specified; bands without a limit say nothing.
 """
 
 import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 from trackig_core.levels.band_tables import BandTable, BandTableError, Quantity
 
@@ -49,8 +51,8 @@ class Specification(BandTable):
         error=SpecificationError,
     )
 
-    def check(self, levels):
-        """Hold insertion gain against the specification.
+    def check(self, levels: ArrayLike) -> "Verdict":
+        """Compare insertion gain with the specification.
 
         Parameters
         ----------
@@ -86,29 +88,29 @@ class Verdict:
         Limit less insertion gain: below zero where the track fails, NaN where nothing is specified.
     """
 
-    margins: np.ndarray = field(repr=False)
+    margins: RealArray = field(repr=False)
 
     @property
-    def complies(self):
+    def complies(self) -> bool:
         """Whether no margin is below zero."""
         return self.worst_margin >= 0
 
     @property
-    def worst_margin(self):
+    def worst_margin(self) -> float:
         """Least margin [dB]."""
         return float(np.nanmin(self.margins))
 
     @property
-    def worst_band(self):
+    def worst_band(self) -> str:
         """Nominal mid-band frequency, as text, of the band with the least margin [Hz]."""
         return BAND_LABELS[int(np.nanargmin(self.margins))]
 
     @property
-    def fails(self):
+    def fails(self) -> BoolArray:
         """Whether the track fails, per band (21,)."""
         return self.margins < 0
 
-    def __str__(self):
+    def __str__(self) -> str:
         """Return the verdict in words."""
         amount = f"{margin_text(abs(self.worst_margin))} dB at {self.worst_band} Hz"
         if self.complies:
@@ -117,7 +119,7 @@ class Verdict:
         return f"fails by {amount} ({count} {'band' if count == 1 else 'bands'})"
 
 
-def margin_text(margin):
+def margin_text(margin: float) -> str:
     """Return a margin [dB], zero or more, with one decimal, or as many as tell it from zero."""
     if margin == 0 or margin >= 0.05:
         return f"{margin:.1f}"

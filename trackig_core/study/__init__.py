@@ -1,1 +1,6 @@
-"""Studies: designs, specification and source, as objects and as TOML."""
+"""Studies: designs with names and looks, a specification and a source, as objects and as one TOML file."""
+
+from trackig_core.study.records import PinnedDesign, StudyError, View
+from trackig_core.study.studies import Study
+
+__all__ = ["PinnedDesign", "Study", "StudyError", "View"]

@@ -1,12 +1,11 @@
 """The cheapest run that is still right: grids for insertion gain that follows the hand.
 
-The twin knows the exact answer of any grid before a step is taken: the z-transform of the scheme, on the
-ring, in closed form. So a grid is not guessed but tried: the time step is the longest that is stable, the
-ring just long enough for its waves to die on the way round, and where the two together would move any
-band by more than :data:`BUDGET`, whichever is at fault is refined. Hz, s, dB. The scheme is the
-paper's (see :mod:`trackig_core.track.design`) with the second-order memory of the damping.
-
-The one rule: the twin chooses the grid, never the answer.
+The frequency-domain solution gives the exact answer of any grid before a step is taken: the z-transform of
+the scheme, on the ring, in closed form. So a grid is not guessed but tried: the time step is the longest that
+is stable, the ring just long enough for its waves to die on the way round, and where the two together would
+move any band by more than :data:`BUDGET`, whichever is at fault is refined. The frequency-domain solution
+chooses the grid, never the answer. Hz, s, dB. The scheme is the paper's (see
+:mod:`trackig_core.track.design`) with the second-order memory of the damping.
 """
 
 import math
@@ -15,10 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import rfft
 
+from trackig_core.arrays import AnyArray, IntArray, RealArray
 from trackig_core.bands import BAND_EDGES
-from trackig_core.frequency_domain.floquet_waves import INFINITE, Lattice, waves
-from trackig_core.frequency_domain.refinement import banded_spectrum, require_damping
-from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.frequency_domain.floquet_waves import waves
+from trackig_core.frequency_domain.lattice import INFINITE, Lattice
+from trackig_core.frequency_domain.refinement import banded_gain
+from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.time_domain.decimation import RECORD_RATE
 from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid, stable_time_step
 
@@ -84,15 +85,13 @@ class Plan:
     error: float
 
 
-def plan(design, loaded_track):
+def plan(design: Track) -> Plan:
     """Choose the cheapest grid whose insertion gain stays within :data:`BUDGET` of the exact answer.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
-    loaded_track : float
-        Its loaded-track frequency [Hz].
 
     Returns
     -------
@@ -106,20 +105,17 @@ def plan(design, loaded_track):
     RunTooLargeError
         If the run would need more than 2 GB or 60 s.
     """
-    require_damping(design)
+    model = track_model(design)
+    exact = banded_gain(model).levels
 
-    def levels(lattice):
-        return insertion_gain(banded_spectrum(design, loaded_track, lattice), design, loaded_track).levels
-
-    exact = levels(INFINITE)
-
-    def error(bays, steps):
+    def error(bays: int | None, steps: int) -> float:
         lattice = Lattice(bays=bays, time_step=1 / (steps * RECORD_RATE), memory_order=MEMORY_ORDER)
-        return float(np.abs(levels(lattice) - exact).max())
+        return float(np.abs(banded_gain(model, lattice).levels - exact).max())
 
-    stable = STABLE_SHARE * stable_time_step(design, design.fastener_spacing / INFINITE.elements_per_bay)
+    dx = model.design.fastener_spacing / INFINITE.elements_per_bay
+    stable = STABLE_SHARE * stable_time_step(model, dx)
     steps = max(FEWEST_STEPS, math.ceil(1 / (stable * RECORD_RATE)))
-    bays = min(FIRST_BAYS, odd(bays_until(design, WAVE_LEFT)))
+    bays = min(FIRST_BAYS, odd(bays_until(model, WAVE_LEFT)))
     for _ in range(MOST_TRIALS):
         whole = error(bays, steps)
         if whole <= BUDGET:
@@ -132,20 +128,20 @@ def plan(design, loaded_track):
             bays = min(MOST_BAYS, odd(REFINEMENT * bays))
         else:
             break
-    return Plan(make_grid(design, 1 / (steps * RECORD_RATE), bays=bays, record=WINDOW), whole)
+    return Plan(make_grid(model, 1 / (steps * RECORD_RATE), bays=bays, record=WINDOW), whole)
 
 
-def odd(bays):
+def odd(bays: float) -> int:
     """Return the least odd whole number from ``bays`` on, and enough of them for a grid."""
     return max(FEWEST_BAYS, 2 * math.ceil((bays - 1) / 2) + 1)
 
 
-def bays_until(design, amplitude):
+def bays_until(design: Track, amplitude: float) -> float:
     """Return how many bays away every wave from 5 to 500 Hz has decayed to an amplitude.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     amplitude : float
         Amplitude over that at the start [-].
@@ -168,11 +164,11 @@ class Settled:
     counts as much as a loud one.
     """
 
-    def __init__(self):
-        self._whole = 0.0
-        self._energies = []
+    def __init__(self) -> None:
+        self._whole: AnyArray = np.zeros(1)
+        self._energies: list[RealArray] = []
 
-    def reached(self, forces):
+    def reached(self, forces: RealArray) -> bool:
         """Return whether a record may end.
 
         Parameters
@@ -193,23 +189,24 @@ class Settled:
         # |F + R|^2 exceeds |F|^2 by no more than 2 |F| |R|, and |R|^2, which is small beside it
         return bool((_near(np.sqrt(whole) * to_come) <= TAIL * _near(whole)).all())
 
-    def more(self, steps_done):
+    def more(self, steps_done: int) -> int:
         """Return how many steps a record that may not end is made longer by."""
         return steps_done // len(self._energies)
 
 
-def _energy(transforms):
+def _energy(transforms: AnyArray) -> RealArray:
     """Return the energy over the half ring's supports (frequencies,)."""
-    return np.sum(transforms.real**2 + transforms.imag**2, axis=1)
+    energy: RealArray = np.sum(transforms.real**2 + transforms.imag**2, axis=1)
+    return energy
 
 
-def _near(density):
+def _near(density: RealArray) -> RealArray:
     """Return the sums of a density (frequencies,) over a band's width around each frequency."""
     running = np.concatenate([[0.0], np.cumsum(density)])
     return running[_NEAR[:, 1]] - running[_NEAR[:, 0]]
 
 
-def _neighbours():
+def _neighbours() -> IntArray:
     """Return first and last (excluded) of the frequencies near each: half a band, or the next ones."""
     numbers = np.arange(1, round(2 * WINDOW * BAND_EDGES[-1]) + 1)
     half_width = 10**0.05

@@ -2,9 +2,8 @@
 
 A step of roughness rings the rail far above the bands, and on a stiff track that content is orders of
 magnitude above the force at 5 Hz: it would fold down onto it. The filter has two stages, a comb that
-the kernel applies as it steps, and a sharp filter on what the comb keeps. Hz and s.
-
-The one rule: what is kept below the pass band is known exactly, and divided out of every spectrum.
+the kernel applies as it steps, and a sharp filter on what the comb keeps. Its response below the pass band
+is known exactly, and divided out of every spectrum. Hz and s.
 """
 
 from dataclasses import dataclass
@@ -12,6 +11,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 from scipy.signal import firwin, kaiserord
+
+from trackig_core.arrays import RealArray
 
 RECORD_RATE = 4096.0
 """Samples a second that are kept of each force after low-passing [Hz]."""
@@ -52,29 +53,29 @@ class LowPass:
     """
 
     time_step: float
-    comb: np.ndarray
+    comb: RealArray
     comb_factor: int
-    taps: np.ndarray
+    taps: RealArray
     factor: int
 
     @property
-    def steps_per_sample(self):
+    def steps_per_sample(self) -> int:
         """Time steps between decimated samples."""
         return self.comb_factor * self.factor
 
     @cached_property
-    def whole(self):
+    def whole(self) -> RealArray:
         """Symmetric coefficients of both stages in one, at full rate; unit gain at 0 Hz (all_taps,) [-]."""
         spread = np.zeros((self.taps.size - 1) * self.comb_factor + 1)
         spread[:: self.comb_factor] = self.taps
         return np.convolve(np.trim_zeros(self.comb, "b"), spread)
 
-    def times(self, samples):
+    def times(self, samples: int) -> RealArray:
         """Return the time that each sample stands for (samples,) [s]: the filter's centre."""
-        newest = np.arange(samples) * self.steps_per_sample + self.comb_factor - 1
+        newest = np.arange(samples, dtype=np.float64) * self.steps_per_sample + self.comb_factor - 1
         return (newest - (self.whole.size - 1) / 2) * self.time_step
 
-    def gain(self, frequency):
+    def gain(self, frequency: RealArray) -> RealArray:
         """Return the magnitude of the filter's frequency response.
 
         Parameters
@@ -92,7 +93,7 @@ class LowPass:
         return first * _symmetric_gain(self.taps, 2 * np.pi * self.time_step * self.comb_factor * frequency)
 
 
-def _symmetric_gain(taps, angle):
+def _symmetric_gain(taps: RealArray, angle: RealArray) -> RealArray:
     """Return the response of symmetric coefficients (taps,) at angles per sample (frequencies,) [rad]."""
     half = taps.size // 2
     from_centre = np.arange(half) - (taps.size - 1) / 2
@@ -101,7 +102,7 @@ def _symmetric_gain(taps, angle):
 
 
 @lru_cache(maxsize=64)
-def low_pass(time_step):
+def low_pass(time_step: float) -> LowPass:
     """Return the filter that precedes decimation to :data:`RECORD_RATE`.
 
     Parameters

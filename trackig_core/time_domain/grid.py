@@ -17,14 +17,13 @@ An odd number of bays puts the far mirror in the middle of the last bay.
 :mod:`trackig_core.time_domain.memory_layout` shows how this lies in memory.
 
 SI units. Source: the paper (see :mod:`trackig_core.track.design`), sections on the grid and on stability.
-The one rule: a grid that exists is stable.
 """
 
 import math
 from dataclasses import dataclass
 
+from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.time_domain.decimation import RECORD_RATE
-from trackig_core.track.viscoelastic_law import laws
 
 ELEMENTS_PER_BAY = 3
 """Rail elements between neighbouring supports [-]; the paper."""
@@ -64,7 +63,7 @@ class RunTooLargeError(ValueError):
 
 @dataclass(frozen=True)
 class Grid:
-    """Elements and steps of one run.
+    """Elements and steps of one run; those of :func:`make_grid` are stable.
 
     Attributes
     ----------
@@ -99,23 +98,23 @@ class Grid:
         """Bays that are stored: support 0 and those on one side of it."""
         return (self.bays + 1) // 2
 
-    def duration_estimate(self, record):
+    def duration_estimate(self, record: float) -> float:
         """Return the time that a record of given length [s] would take on a modest core [s]."""
         return record / self.dt * self.half_bays * self.elements_per_bay / STEP_RATE
 
-    def memory_estimate(self, record):
+    def memory_estimate(self, record: float) -> float:
         """Return the memory that a record of given length [s] would take [bytes]."""
         # all supports at the decimated rate, copied up to twice on the way to the spectrum
         return 3 * 8 * self.half_bays * record * RECORD_RATE
 
-    def can_afford(self, record):
+    def can_afford(self, record: float) -> bool:
         """Return whether a record of given length [s] keeps within the limits of time and memory."""
         return (
             self.duration_estimate(record) <= DURATION_LIMIT and self.memory_estimate(record) <= MEMORY_LIMIT
         )
 
 
-def stable_time_step(design, dx):
+def stable_time_step(design: Track, dx: float) -> float:
     """Return a time step below which the explicit scheme is stable for certain.
 
     Gershgorin's bound on the highest natural frequency of the undamped lattice with every spring
@@ -124,7 +123,7 @@ def stable_time_step(design, dx):
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     dx : float
         Length of a rail element [m].
@@ -134,31 +133,31 @@ def stable_time_step(design, dx):
     float
         Largest safe time step [s].
     """
-    pad_law, boot_law = laws(design)
-    pad = pad_law.instantaneous
-    element_mass = design.rail.mass_per_metre * dx
-    bending = 16 * design.rail.bending_stiffness / (design.rail.mass_per_metre * dx**4)
+    model = track_model(design)
+    track, pad, boot = model.design, model.pad.instantaneous, model.boot
+    element_mass = track.rail.mass_per_metre * dx
+    bending = 16 * track.rail.bending_stiffness / (track.rail.mass_per_metre * dx**4)
     rows = [
-        bending + 2 * (pad + design.contact_stiffness) / element_mass,
-        2 * design.contact_stiffness / design.wheel_mass,
+        bending + 2 * (pad + track.contact_stiffness) / element_mass,
+        2 * track.contact_stiffness / track.wheel_mass,
     ]
-    if design.two_stage:
-        rows.append((2 * pad + boot_law.instantaneous) / design.block_mass)
+    if boot is not None and track.block_mass is not None:
+        rows.append((2 * pad + boot.instantaneous) / track.block_mass)
     return 2 / math.sqrt(max(rows))
 
 
 def make_grid(
-    design,
-    time_step=PAPER_TIME_STEP,
-    elements_per_bay=ELEMENTS_PER_BAY,
-    bays=RING_BAYS,
-    record=PAPER_RECORD,
-):
+    design: Track,
+    time_step: float = PAPER_TIME_STEP,
+    elements_per_bay: int = ELEMENTS_PER_BAY,
+    bays: int = RING_BAYS,
+    record: float = PAPER_RECORD,
+) -> Grid:
     """Cut a design into elements and steps, halving the time step until it is stable.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     time_step : float
         Time step wanted [s].
@@ -190,11 +189,12 @@ def make_grid(
             f"time_step = {time_step!r}, record = {record!r}: give a time step above 0 s "
             f"and a record of {SHORTEST_RECORD} s or more"
         )
-    dx = design.fastener_spacing / elements_per_bay
-    stable = stable_time_step(design, dx)
+    model = track_model(design)
+    dx = model.design.fastener_spacing / elements_per_bay
+    stable = stable_time_step(model, dx)
     halvings = max(0, math.floor(math.log2(time_step / stable)) + 1)
     dt = time_step / 2**halvings
-    notes = ()
+    notes: tuple[str, ...] = ()
     if halvings:
         notes = (
             f"time step halved {_times(halvings)} to 1/{1 / dt:.0f} s: this design is stable only below "
@@ -205,11 +205,11 @@ def make_grid(
     return grid
 
 
-def _times(count):
+def _times(count: int) -> str:
     return {1: "once", 2: "twice"}.get(count, f"{count} times")
 
 
-def _refuse_if_too_large(grid, record):
+def _refuse_if_too_large(grid: Grid, record: float) -> None:
     seconds = grid.duration_estimate(record)
     if seconds > DURATION_LIMIT:
         raise RunTooLargeError(

@@ -11,38 +11,40 @@ neither a changed global nor an edit in another file.
 
 from numba import njit
 
+from trackig_core.arrays import IntArray, RealArray
+
 LANES = 16
 """Stretches into which the half ring is cut, to be stepped side by side [-]: two vectors of eight doubles."""
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"})
 def advance(
-    rail,
-    rail_velocity,
-    supports,
-    wheel,
-    window,
-    mirrors,
-    rail_probes,
-    block_probes,
-    time_step,
-    bending,
-    pad_stiffness,
-    pad_decay,
-    pad_gain,
-    boot_stiffness,
-    boot_decay,
-    boot_gain,
-    element_mass,
-    block_mass,
-    wheel_mass,
-    contact_stiffness,
-    two_stage,
-    taps,
-    factor,
-    first,
-    record,
-):
+    rail: RealArray,
+    rail_velocity: RealArray,
+    supports: RealArray,
+    wheel: RealArray,
+    window: RealArray,
+    mirrors: IntArray,
+    rail_probes: IntArray,
+    block_probes: IntArray,
+    time_step: float,
+    bending: float,
+    pad_stiffness: float,
+    pad_decay: RealArray,
+    pad_gain: RealArray,
+    boot_stiffness: float,
+    boot_decay: RealArray,
+    boot_gain: RealArray,
+    element_mass: float,
+    block_mass: float,
+    wheel_mass: float,
+    contact_stiffness: float,
+    two_stage: bool,
+    taps: RealArray,
+    factor: int,
+    first: int,
+    record: RealArray,
+) -> None:
     """Step the half ring through time, and keep a low-passed row of what happens every few steps.
 
     Forces come from the displacements of one instant; velocities follow, then displacements. The
@@ -129,7 +131,10 @@ def advance(
 
 
 @njit(nogil=True, cache=True, inline="always")
-def fill_ghosts(rail, mirrors):
+def fill_ghosts(
+    rail: RealArray,
+    mirrors: IntArray,
+) -> None:
     """Fill the ghosts: with the next stretch's elements, and with mirror images at both ends.
 
     Parameters
@@ -148,7 +153,14 @@ def fill_ghosts(rail, mirrors):
 
 
 @njit(nogil=True, cache=True, inline="always")
-def record_displacements(row, rail, supports, wheel, rail_probes, block_probes):
+def record_displacements(
+    row: RealArray,
+    rail: RealArray,
+    supports: RealArray,
+    wheel: RealArray,
+    rail_probes: IntArray,
+    block_probes: IntArray,
+) -> None:
     """Note the displacements that are recorded, behind the forces of a row.
 
     Parameters
@@ -167,7 +179,18 @@ def record_displacements(row, rail, supports, wheel, rail_probes, block_probes):
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def viscoelastic_force(memory, place, strain, stiffness, keep0, keep1, keep2, feed0, feed1, feed2):
+def viscoelastic_force(
+    memory: RealArray,
+    place: int,
+    strain: float,
+    stiffness: float,
+    keep0: float,
+    keep1: float,
+    keep2: float,
+    feed0: float,
+    feed1: float,
+    feed2: float,
+) -> float:
     """Return the force of a spring with three memory terms [N], and let the terms take up its strain.
 
     Parameters
@@ -190,20 +213,20 @@ def viscoelastic_force(memory, place, strain, stiffness, keep0, keep1, keep2, fe
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
 def step_two_stage(
-    rail_rows,
-    velocity_rows,
-    supports,
-    row,
-    time_step,
-    element_mass,
-    block_mass,
-    pad_stiffness,
-    pad_decay,
-    pad_gain,
-    boot_stiffness,
-    boot_decay,
-    boot_gain,
-):
+    rail_rows: RealArray,
+    velocity_rows: RealArray,
+    supports: RealArray,
+    row: RealArray,
+    time_step: float,
+    element_mass: float,
+    block_mass: float,
+    pad_stiffness: float,
+    pad_decay: RealArray,
+    pad_gain: RealArray,
+    boot_stiffness: float,
+    boot_decay: RealArray,
+    boot_gain: RealArray,
+) -> None:
     """Let pads push rail and blocks, boots push blocks and ground; move the blocks.
 
     Parameters
@@ -243,8 +266,16 @@ pad_gain, boot_stiffness, boot_decay, boot_gain
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
 def step_single_stage(
-    rail_rows, velocity_rows, supports, row, time_step, element_mass, pad_stiffness, pad_decay, pad_gain
-):
+    rail_rows: RealArray,
+    velocity_rows: RealArray,
+    supports: RealArray,
+    row: RealArray,
+    time_step: float,
+    element_mass: float,
+    pad_stiffness: float,
+    pad_decay: RealArray,
+    pad_gain: RealArray,
+) -> None:
     """Let pads push rail and ground.
 
     Parameters
@@ -275,7 +306,12 @@ def step_single_stage(
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def step_rail(rail, rail_velocity, bending, time_step):
+def step_rail(
+    rail: RealArray,
+    rail_velocity: RealArray,
+    bending: float,
+    time_step: float,
+) -> None:
     """Let the rail straighten itself, and move it.
 
     Parameters
@@ -295,7 +331,12 @@ def step_rail(rail, rail_velocity, bending, time_step):
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def apply_fir(window, newest, taps, kept):
+def apply_fir(
+    window: RealArray,
+    newest: int,
+    taps: RealArray,
+    kept: RealArray,
+) -> None:
     """Sum the rows of a window, weighed by a filter.
 
     Parameters
@@ -320,7 +361,12 @@ def apply_fir(window, newest, taps, kept):
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"})
-def decimate(record, taps, factor, samples):
+def decimate(
+    record: RealArray,
+    taps: RealArray,
+    factor: int,
+    samples: RealArray,
+) -> None:
     """Low-pass every column of a record and keep one row in ``factor``.
 
     Parameters

@@ -13,12 +13,12 @@ apart, and loops over places run over whole, aligned vectors:
 The last bays of the last stretches may lie beyond the middle of the ring; they move as the mirror images
 that they are, and are left out of results. (Henretty et al., 2011, "Data layout transformation for
 stencil computations on short-vector SIMD architectures".)
-
-The one rule: nothing outside this module and the kernel knows of lanes.
 """
 
 import numpy as np
 
+from trackig_core.arrays import IntArray, RealArray
+from trackig_core.time_domain.grid import Grid
 from trackig_core.time_domain.kernels import LANES
 
 ALIGNMENT = 64
@@ -52,14 +52,14 @@ class Layout:
         Bays stored: those of the half ring, and mirror images.
     """
 
-    def __init__(self, grid):
+    def __init__(self, grid: Grid) -> None:
         self._half_bays = grid.half_bays
         self._ring = grid.elements
         self.bays = -(-grid.half_bays // LANES)
         self.elements = self.bays * grid.elements_per_bay
         self.slots = self.bays * LANES
 
-    def rail_place(self, element):
+    def rail_place(self, element: int) -> int:
         """Return where an element lies in the rail's displacements, ghosts included.
 
         Parameters
@@ -70,25 +70,25 @@ class Layout:
         stretch, row = divmod(abs(element), self.elements)
         return (row + GHOSTS) * LANES + stretch
 
-    def block_place(self, support):
+    def block_place(self, support: int) -> int:
         """Return where the block of a support lies among all that is kept of supports, as one row."""
         stretch, row = divmod(support, self.bays)
         return row * QUANTITIES * LANES + stretch
 
-    def mirrors(self):
+    def mirrors(self) -> IntArray:
         """Return the places that the ghosts beyond both ends mirror (4,)."""
         beyond = self._ring - LANES * self.elements
         return np.array([self.rail_place(element) for element in (2, 1, beyond, beyond - 1)])
 
-    def columns(self, probes):
+    def columns(self, probes: int) -> int:
         """Return how many columns a record has for the forces and some more quantities."""
         return self.slots + -(-probes // COLUMNS) * COLUMNS
 
-    def width(self, probes):
+    def width(self, probes: int) -> int:
         """Return how many columns a record in order has."""
         return self._half_bays + probes
 
-    def put_in_order(self, rows, ordered):
+    def put_in_order(self, rows: RealArray, ordered: RealArray) -> None:
         """Copy rows of a record so that the supports come in order, then the other quantities.
 
         Parameters
@@ -103,7 +103,7 @@ class Layout:
         ordered[:, self._half_bays :] = rows[:, self.slots : self.slots + ordered.shape[1] - self._half_bays]
 
 
-def aligned_zeros(*shape):
+def aligned_zeros(*shape: int) -> RealArray:
     """Return an array of zeros that begins on a cache line.
 
     Parameters

@@ -4,13 +4,14 @@ N2 s2 over Hz. The one normalisation: F(f) = dt * sum_n F_n exp(-i 2 pi f n dt),
 of the record, so that a spectrum does not depend on the record's length or rate.
 
 Source: the paper (see :mod:`trackig_core.track.design`): energy is summed over the supports, not force.
-The one rule: nothing is said above the low-pass filter's pass band.
+Nothing is said above the low-pass filter's pass band.
 """
 
 import numpy as np
 from scipy.fft import next_fast_len, rfft
 
-from trackig_core.results import ForceSpectrum
+from trackig_core.arrays import RealArray
+from trackig_core.results import ForceSpectrum, TimeHistory
 
 TOP_FREQUENCY = 600.0
 """Highest frequency of a spectrum [Hz]: above the upper edge of the 500 Hz band, 562 Hz."""
@@ -19,7 +20,7 @@ COLUMNS = 8
 """Supports that are transformed at a time [-]: few enough that memory is used again, not asked for anew."""
 
 
-def force_spectrum(history, padding=1):
+def force_spectrum(history: TimeHistory, padding: float = 1) -> ForceSpectrum:
     """Return the energy spectrum of a run, corrected for the low-pass filter's own response.
 
     Parameters
@@ -58,13 +59,13 @@ def force_spectrum(history, padding=1):
     )
 
 
-def transform_length(history, padding):
+def transform_length(history: TimeHistory, padding: float) -> int:
     """Return the number of samples of a transform: ``padding`` times the record's, or a little more."""
     samples = len(history.time)
-    return samples if padding == 1 else next_fast_len(round(padding * samples), real=True)
+    return samples if padding == 1 else int(next_fast_len(round(padding * samples), real=True))
 
 
-def block_to_rail(history):
+def block_to_rail(history: TimeHistory) -> tuple[RealArray, RealArray]:
     """Return how much the block moves per movement of the rail, at the loaded support.
 
     Parameters
@@ -84,7 +85,7 @@ def block_to_rail(history):
     return frequency, np.abs(rfft(history.block_displacement)[some] / rfft(history.rail_displacement)[some])
 
 
-def _axis(history, length):
+def _axis(history: TimeHistory, length: int) -> tuple[RealArray, float]:
     """Return the frequencies of a transform up to 600 Hz, zero left out, and its interval [s]."""
     interval = (history.time[-1] - history.time[0]) / (len(history.time) - 1)
     count = int(TOP_FREQUENCY * length * interval) + 1

@@ -3,24 +3,25 @@
 SI units. Rest until time zero, then a step squeezes the contact spring (the paper, see
 :mod:`trackig_core.track.design`). Each block of steps is low-passed before it is decimated, because on a
 stiff track the ringing far above 500 Hz is orders of magnitude stronger than the force at 5 Hz and
-would fold down onto it.
-
-The one rule: nothing that is not finite leaves this module.
+would fold down onto it. A run that leaves the finite numbers ends in an error.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from trackig_core.arrays import IntArray, RealArray
+from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.results import TimeHistory
 from trackig_core.time_domain import kernels
 from trackig_core.time_domain.decimation import NO_COMB, RECORD_RATE, low_pass
-from trackig_core.time_domain.grid import LONGEST_RECORD
+from trackig_core.time_domain.grid import LONGEST_RECORD, Grid
 from trackig_core.time_domain.kernels import LANES
 from trackig_core.time_domain.memory_layout import GHOSTS, QUANTITIES, Layout, aligned_zeros
 from trackig_core.track.design import DEFAULT_STEP
-from trackig_core.track.viscoelastic_law import laws
+from trackig_core.track.viscoelastic_law import Relaxation
 
 DECAY = 1e-4
 """Amplitude, relative to its peak, below which a force has died down [-]: 80 dB."""
@@ -40,13 +41,23 @@ class SolveCancelled(Exception):  # noqa: N818  (it is no error: the caller aske
     """The caller cancelled the run."""
 
 
+class Ending(Protocol):
+    """When a record may end."""
+
+    def reached(self, forces: RealArray) -> bool:
+        """Return whether a record may end, given its latest part (samples, supports) [N]."""
+
+    def more(self, steps_done: int) -> int:
+        """Return how many steps a record that may not end is made longer by."""
+
+
 class Decay:
     """When the paper's record may end: its force has decayed by 80 dB; if not, it is doubled."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._peak = 0.0
 
-    def reached(self, forces):
+    def reached(self, forces: RealArray) -> bool:
         """Return whether a record may end.
 
         Parameters
@@ -58,19 +69,28 @@ class Decay:
         self._peak = max(self._peak, float(np.abs(forces).max()))
         return bool(np.abs(forces[-window:]).max() <= DECAY * self._peak)
 
-    def more(self, steps_done):
+    def more(self, steps_done: int) -> int:
         """Return how many steps a record that may not end is made longer by."""
         return steps_done
 
 
-def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, progress=None, cancelled=None):
+def simulate(
+    design: Track,
+    grid: Grid,
+    *,
+    memory_order: int = 1,
+    step: float = DEFAULT_STEP,
+    ending: Ending | None = None,
+    progress: Callable[[float], object] | None = None,
+    cancelled: Callable[[], object] | None = None,
+) -> TimeHistory:
     """Step a design through time until the force into the ground has died down.
 
     The record is made longer, up to 16 s, until its ending is reached.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     grid : Grid
         Its grid.
@@ -78,7 +98,7 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, pr
         1 for the paper's recursion of the damping memory, 2 for the second-order one.
     step : float
         Step that squeezes the contact spring [m].
-    ending : Decay, optional
+    ending : Ending, optional
         Says when the record may end, and how much longer it is made if it may not. By default the paper's:
         it is doubled until the low-passed force has decayed by 80 dB.
     progress : callable, optional
@@ -99,7 +119,8 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, pr
     FloatingPointError
         If the run produced a value that is not finite.
     """
-    run = Run(design, grid, memory_order=memory_order, step=step)
+    model = track_model(design)
+    run = Run(model, grid, memory_order=memory_order, step=step)
     ending = ending or Decay()
     parts = [run.collect(grid.steps, progress, cancelled)]
     while not (decayed := ending.reached(parts[-1][:, : grid.half_bays])):
@@ -121,7 +142,7 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, pr
         multiplicity=multiplicity,
         wheel_displacement=samples[:, supports],
         rail_displacement=samples[:, supports + 1],
-        block_displacement=samples[:, supports + 2] if design.two_stage else None,
+        block_displacement=samples[:, supports + 2] if model.design.two_stage else None,
         low_pass=run.filter,
         time_step=grid.dt,
         step=step,
@@ -133,33 +154,33 @@ def simulate(design, grid, *, memory_order=1, step=DEFAULT_STEP, ending=None, pr
 class State(NamedTuple):
     """What the kernel changes from step to step, in the order in which it takes it."""
 
-    rail: np.ndarray
-    rail_velocity: np.ndarray
-    supports: np.ndarray
-    wheel: np.ndarray
-    window: np.ndarray
+    rail: RealArray
+    rail_velocity: RealArray
+    supports: RealArray
+    wheel: RealArray
+    window: RealArray
 
 
 class Constants(NamedTuple):
     """What the kernel is given and leaves alone, in the order in which it takes it."""
 
-    mirrors: np.ndarray
-    rail_probes: np.ndarray
-    block_probes: np.ndarray
+    mirrors: IntArray
+    rail_probes: IntArray
+    block_probes: IntArray
     time_step: float
     bending: float
     pad_stiffness: float
-    pad_decay: np.ndarray
-    pad_gain: np.ndarray
+    pad_decay: RealArray
+    pad_gain: RealArray
     boot_stiffness: float
-    boot_decay: np.ndarray
-    boot_gain: np.ndarray
+    boot_decay: RealArray
+    boot_gain: RealArray
     element_mass: float
     block_mass: float
     wheel_mass: float
     contact_stiffness: float
     two_stage: bool
-    comb: np.ndarray
+    comb: RealArray
     comb_factor: int
 
 
@@ -183,7 +204,7 @@ class Probes:
     blocks: tuple[int, ...] = (0,)
 
     @property
-    def count(self):
+    def count(self) -> int:
         """Displacements recorded, the wheel's among them."""
         return 1 + len(self.rail) + len(self.blocks)
 
@@ -193,20 +214,20 @@ LOADED_SUPPORT = Probes()
 
 
 def at_rest(
-    design,
-    grid,
+    design: Track,
+    grid: Grid,
     *,
-    memory_order=1,
-    step=DEFAULT_STEP,
-    probes=LOADED_SUPPORT,
-    comb=NO_COMB,
-    comb_factor=1,
-):
+    memory_order: int = 1,
+    step: float = DEFAULT_STEP,
+    probes: Probes = LOADED_SUPPORT,
+    comb: RealArray = NO_COMB,
+    comb_factor: int = 1,
+) -> tuple[State, Constants]:
     """Return a track at rest under a wheel that squeezes its contact spring.
 
     Parameters
     ----------
-    design : TrackDesign
+    design : TrackDesign or TrackModel
         The track.
     grid : Grid
         Its grid.
@@ -226,8 +247,8 @@ def at_rest(
     State, Constants
         Arguments of :func:`trackig_core.time_domain.kernels.advance`; shapes and units are given there.
     """
-    rail, layout = design.rail, Layout(grid)
-    pad_law, boot_law = laws(design)
+    model, layout = track_model(design), Layout(grid)
+    track, rail = model.design, model.design.rail
     state = State(
         rail=aligned_zeros((layout.elements + 2 * GHOSTS) * LANES),
         rail_velocity=aligned_zeros(layout.elements * LANES),
@@ -241,20 +262,22 @@ def at_rest(
         np.array([layout.block_place(support) for support in probes.blocks], dtype=np.int64),
         grid.dt,
         grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
-        *_recursion(pad_law, grid.dt, memory_order),
-        *_recursion(boot_law, grid.dt, memory_order),
+        *_recursion(model.pad, grid.dt, memory_order),
+        *_recursion(model.boot, grid.dt, memory_order),
         element_mass=rail.mass_per_metre * grid.dx,
-        block_mass=design.block_mass if design.two_stage else 1.0,
-        wheel_mass=design.wheel_mass,
-        contact_stiffness=design.contact_stiffness,
-        two_stage=design.two_stage,
+        block_mass=1.0 if track.block_mass is None else track.block_mass,
+        wheel_mass=track.wheel_mass,
+        contact_stiffness=track.contact_stiffness,
+        two_stage=track.two_stage,
         comb=comb,
         comb_factor=comb_factor,
     )
     return state, constants
 
 
-def _recursion(law, time_step, memory_order):
+def _recursion(
+    law: Relaxation | None, time_step: float, memory_order: int
+) -> tuple[float, RealArray, RealArray]:
     """Return stiffness, decays and gains of a spring, as many as the kernel has terms; zero for no spring."""
     if law is None:
         return 0.0, np.zeros(TERMS), np.zeros(TERMS)
@@ -279,7 +302,15 @@ class Run:
         Time steps taken.
     """
 
-    def __init__(self, design, grid, *, memory_order=1, step=DEFAULT_STEP, probes=LOADED_SUPPORT):
+    def __init__(
+        self,
+        design: Track,
+        grid: Grid,
+        *,
+        memory_order: int = 1,
+        step: float = DEFAULT_STEP,
+        probes: Probes = LOADED_SUPPORT,
+    ) -> None:
         self.filter = low_pass(grid.dt)
         self._state, self._constants = at_rest(
             design,
@@ -299,7 +330,12 @@ class Run:
         self.steps_done = 0
         self._fraction = 0.0
 
-    def collect(self, steps, progress=None, cancelled=None):
+    def collect(
+        self,
+        steps: int,
+        progress: Callable[[float], object] | None = None,
+        cancelled: Callable[[], object] | None = None,
+    ) -> RealArray:
         """Take about ``steps`` time steps and return their decimated samples, supports in order, then probes.
 
         Parameters
@@ -335,11 +371,12 @@ class Run:
                 progress(self._fraction)
         return samples
 
-    def _fill(self, samples):
+    def _fill(self, samples: RealArray) -> None:
         """Step on, and fill the next samples."""
         count, tail = len(samples), self.filter.taps.size - 1
         rows = self._rows[: tail + count * self.filter.factor]
-        kernels.advance(*self._state, *self._constants, self.steps_done, rows[tail:])
+        arguments = (*self._state, *self._constants, self.steps_done, rows[tail:])
+        kernels.advance(*arguments)
         self.steps_done += count * self.filter.steps_per_sample
         kernels.decimate(rows, self.filter.taps, self.filter.factor, self._kept[:count])
         self._rows[:tail] = rows[-tail:].copy()

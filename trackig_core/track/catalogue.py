@@ -1,36 +1,9 @@
-"""Rail sections and the four tracks of the paper's Table 1, each with its source.
+"""The four tracks of the paper's Table 1. SI units."""
 
-SI units. The one rule: nothing here without a source.
-"""
+from trackig_core.names import named
+from trackig_core.track.design import TrackDesign
 
-from types import MappingProxyType
-
-from trackig_core.track.design import PAPER_RAIL, Rail, TrackDesign
-
-STEEL_MODULUS = 210e9
-"""Young's modulus of rail steel [Pa]."""
-
-
-def _section(name, mass_per_metre, second_moment_cm4):
-    return Rail(name, mass_per_metre, STEEL_MODULUS * second_moment_cm4 * 1e-8)
-
-
-RAILS = MappingProxyType(
-    {
-        rail.name: rail
-        for rail in (
-            PAPER_RAIL,
-            _section("49E1", 49.39, 1816),
-            _section("54E1", 54.77, 2338),
-            _section("56E1", 56.30, 2321),
-            _section("60E1", 60.21, 3038),
-            _section("60E2", 60.03, 3022),
-        )
-    }
-)
-"""Rail sections by name: "60" is the paper's; the others are nominal figures of EN 13674-1 (kg/m, cm4)."""
-
-PRESETS = MappingProxyType(
+PRESETS = named(
     {
         "slab-track": TrackDesign(
             pad_stiffness=1000e6,

@@ -4,129 +4,27 @@ SI units: N/m, kg, m, N m2; loss factors have no unit. Stiffnesses are dynamic s
 50 Hz. Source of the model: Thornely-Taylor, Bewes and Sica (2021), "A simplified model for
 calculating the insertion gain of track support systems using the finite difference method".
 
-The one rule: a design that exists is valid. Every value is checked when the object is made, the
-objects never change, and equal designs are equal keys.
+A design that exists is valid: every value is checked when the object is made, the objects never change, and
+equal designs are equal keys.
 """
 
 import dataclasses
 import difflib
-import math
-import numbers
 from dataclasses import dataclass
+from typing import Any
 
-from trackig_core.names import allowed, brief, is_name
+from trackig_core.track.fields import RANGES as RANGES
+from trackig_core.track.fields import DesignError as DesignError
+from trackig_core.track.fields import check_number
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
+from trackig_core.track.rails import PAPER_RAIL, RAILS
+from trackig_core.track.rails import Rail as Rail
 
 REFERENCE_FREQUENCY = 50.0
 """Frequency at which a pad's or boot's dynamic stiffness is stated [Hz]; the paper, section on damping."""
 
 DEFAULT_STEP = 1e-4
 """Step of roughness that squeezes the contact spring [m]; insertion gain does not depend on it."""
-
-RANGES = {
-    "mass_per_metre": (10.0, 200.0, "kg/m"),
-    "bending_stiffness": (1e5, 1e8, "N m2"),
-    "pad_stiffness": (1e5, 1e13, "N/m"),
-    "pad_loss_factor": (0.0, 1.0, ""),
-    "block_mass": (1.0, 1e4, "kg"),
-    "boot_stiffness": (1e5, 1e13, "N/m"),
-    "boot_loss_factor": (0.0, 1.0, ""),
-    "fastener_spacing": (0.1, 2.0, "m"),
-    "wheel_mass": (10.0, 1e4, "kg"),
-    "contact_stiffness": (1e6, 1e14, "N/m"),
-}
-"""Lowest and highest value, and unit, of each number: wide enough for any support that has been built and
-for the very stiff tracks that stand in for a rigid one, narrow enough to catch a slip of units."""
-
-
-class DesignError(ValueError):
-    """A design has a value that no track can have.
-
-    Attributes
-    ----------
-    field : str
-        Name of the field at fault.
-    value : object
-        The value that was given.
-    allowed : str
-        What may be given instead.
-    """
-
-    def __init__(self, field, value, allowed):
-        self.field, self.value, self.allowed = field, value, allowed
-        super().__init__(f"{field} = {brief(value)}: give {allowed}")
-
-    def __reduce__(self):
-        """Let the error pass between processes."""
-        return type(self), (self.field, self.value, self.allowed)
-
-
-def check_number(field, value):
-    """Return ``value`` as a float if it is a number within the range of ``field``.
-
-    Parameters
-    ----------
-    field : str
-        A key of :data:`RANGES`.
-    value : object
-        Anything a caller may have given.
-
-    Returns
-    -------
-    float
-        The value [unit of the field].
-
-    Raises
-    ------
-    DesignError
-        If it is not a real, finite number within the range (a bool is not a number).
-    """
-    low, high, unit = RANGES[field]
-    allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
-    if not isinstance(value, numbers.Real) or isinstance(value, bool):
-        raise DesignError(field, value, allowed)
-    try:
-        number = float(value)
-    except OverflowError:
-        raise DesignError(field, value, allowed) from None
-    if not (math.isfinite(number) and low <= number <= high):
-        raise DesignError(field, value, allowed)
-    return number
-
-
-@dataclass(frozen=True)
-class Rail:
-    """A rail section, bending vertically.
-
-    Parameters
-    ----------
-    name : str
-        Name of the section.
-    mass_per_metre : float
-        Mass per metre [kg/m].
-    bending_stiffness : float
-        Young's modulus times second moment of area, EI [N m2].
-
-    Raises
-    ------
-    DesignError
-        If a value is out of its range.
-    """
-
-    name: str
-    mass_per_metre: float
-    bending_stiffness: float
-
-    def __post_init__(self):
-        """Check every value once."""
-        if not is_name(self.name):
-            raise DesignError("name", self.name, allowed())
-        for field in ("mass_per_metre", "bending_stiffness"):
-            object.__setattr__(self, field, check_number(field, getattr(self, field)))
-
-
-PAPER_RAIL = Rail("60", mass_per_metre=60.0, bending_stiffness=210e9 * 3038e-8)
-"""The paper's rail: 60 kg/m (Table 1) with the second moment of 60E1, 3038 cm4, and E = 210 GPa."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,7 +52,7 @@ class TrackDesign:
     wheel_mass : float
         Unsprung mass on one rail [kg].
     rail : Rail
-        Rail section.
+        Rail section; the name of one of ``RAILS`` stands for it.
     contact_stiffness : float
         Linearised Hertzian contact stiffness [N/m].
 
@@ -174,11 +72,13 @@ class TrackDesign:
     rail: Rail = PAPER_RAIL
     contact_stiffness: float = 1.2e9
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Check every value once."""
         self._check_stages()
+        if isinstance(self.rail, str) and self.rail in RAILS:
+            object.__setattr__(self, "rail", RAILS[self.rail])
         if not isinstance(self.rail, Rail):
-            raise DesignError("rail", self.rail, "a Rail, such as RAILS['60']")
+            raise DesignError("rail", self.rail, f"a Rail, or the name of one: {', '.join(RAILS)}")
         for field in ("fastener_spacing", "wheel_mass", "contact_stiffness"):
             self._check(field)
         self._check_spring("pad")
@@ -186,10 +86,10 @@ class TrackDesign:
             self._check("block_mass")
             self._check_spring("boot")
 
-    def _check(self, field):
+    def _check(self, field: str) -> None:
         object.__setattr__(self, field, check_number(field, getattr(self, field)))
 
-    def _check_spring(self, part):
+    def _check_spring(self, part: str) -> None:
         """Check stiffness and loss factor of the pad or the boot."""
         stiffness, loss_factor = f"{part}_stiffness", f"{part}_loss_factor"
         if isinstance(getattr(self, stiffness), StiffnessCurve):
@@ -201,7 +101,7 @@ class TrackDesign:
         if not isinstance(getattr(self, loss_factor), LossFactorCurve):
             self._check(loss_factor)
 
-    def _check_stages(self):
+    def _check_stages(self) -> None:
         """Check that block and boot come together or not at all."""
         given = {field: getattr(self, field) is not None for field in ("block_mass", "boot_stiffness")}
         if any(given.values()) or self.boot_loss_factor is not None:
@@ -219,7 +119,7 @@ class TrackDesign:
         """Whether blocks and boots stand between pads and ground."""
         return self.block_mass is not None
 
-    def replace(self, **changes):
+    def replace(self, **changes: Any) -> "TrackDesign":
         """Return a copy of this design with some fields changed.
 
         Parameters

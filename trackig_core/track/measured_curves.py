@@ -9,10 +9,13 @@ names the row.
 
 import math
 import numbers
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.names import brief
 
 MOST_POINTS = 1000
@@ -35,12 +38,12 @@ class MeasurementError(ValueError):
         Number of the row at fault, counted from 1; None if the table as a whole is.
     """
 
-    def __init__(self, message, row=None):
+    def __init__(self, message: str, row: int | None = None) -> None:
         self.row = row
         self._message = message
         super().__init__(message if row is None else f"row {row}: {message}")
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type, tuple[str, int | None]]:
         """Let the error pass between processes."""
         return type(self), (self._message, self.row)
 
@@ -62,11 +65,11 @@ class LossFactorCurve:
 
     points: tuple[tuple[float, float], ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Check every row once."""
         object.__setattr__(self, "points", _checked(self.points, ("frequency", "loss factor")))
 
-    def loss_factor(self, frequency):
+    def loss_factor(self, frequency: ArrayLike) -> RealArray:
         """Return the loss factor at given frequencies [Hz]; same shape, [-]."""
         return _interpolated(frequency, self.points, 1)
 
@@ -89,30 +92,30 @@ class StiffnessCurve:
 
     points: tuple[tuple[float, float, float], ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Check every row once."""
         object.__setattr__(self, "points", _checked(self.points, tuple(COLUMNS)))
 
-    def stiffness(self, frequency):
+    def stiffness(self, frequency: ArrayLike) -> RealArray:
         """Return the dynamic stiffness at given frequencies [Hz]; same shape, [N/m]."""
         return _interpolated(frequency, self.points, 1)
 
-    def loss_factor(self, frequency):
+    def loss_factor(self, frequency: ArrayLike) -> RealArray:
         """Return the loss factor at given frequencies [Hz]; same shape, [-]."""
         return _interpolated(frequency, self.points, 2)
 
-    def covers(self, frequency):
+    def covers(self, frequency: ArrayLike) -> BoolArray:
         """Return whether given frequencies [Hz] lie between the first and the last point; same shape."""
         frequency = np.asarray(frequency)
         return (frequency >= self.points[0][0]) & (frequency <= self.points[-1][0])
 
 
-def _interpolated(frequency, points, column):
+def _interpolated(frequency: ArrayLike, points: Sequence[Sequence[float]], column: int) -> RealArray:
     table = np.array(points)
     return np.interp(np.log(frequency), np.log(table[:, 0]), table[:, column])
 
 
-def _checked(points, columns):
+def _checked(points: Iterable[Iterable[object]], columns: Sequence[str]) -> tuple[tuple[float, ...], ...]:
     """Return the table as a tuple of tuples of floats, or raise a MeasurementError."""
     try:
         rows = [tuple(row) for row in points]
@@ -120,7 +123,7 @@ def _checked(points, columns):
         raise MeasurementError(f"give rows of {', '.join(columns)}") from None
     if not 2 <= len(rows) <= MOST_POINTS:
         raise MeasurementError(f"{len(rows)} rows: give from 2 to {MOST_POINTS} rows of {', '.join(columns)}")
-    verified = []
+    verified: list[tuple[float, ...]] = []
     for number, row in enumerate(rows, start=1):
         if len(row) != len(columns):
             raise MeasurementError(f"{len(row)} values: give {', '.join(columns)}", number)
@@ -136,7 +139,7 @@ def _checked(points, columns):
     return tuple(verified)
 
 
-def _number(column, value, row):
+def _number(column: str, value: object, row: int) -> float:
     low, high, unit = COLUMNS[column]
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         try:

@@ -13,13 +13,16 @@ stiffness is met as well as three terms can.
 """
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
-from trackig_core.track.design import REFERENCE_FREQUENCY
+from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 
 FIT_FREQUENCIES = np.geomspace(5.0, 500.0, 100)
@@ -66,7 +69,7 @@ class Relaxation:
     times: tuple[float, ...]
     worst_error: float
 
-    def dynamic_stiffness(self, frequency):
+    def dynamic_stiffness(self, frequency: ArrayLike) -> ComplexArray:
         """Return the complex dynamic stiffness K(f), time dependence exp(+i w t).
 
         Parameters
@@ -81,7 +84,7 @@ class Relaxation:
         """
         return _relaxed(frequency, self.instantaneous, self.strengths, self.times)
 
-    def stiffness(self, frequency):
+    def stiffness(self, frequency: float) -> float:
         """Return Re K at one frequency [Hz]: the stiffness without its loss [N/m]."""
         angular = 2 * math.pi * frequency
         return self.instantaneous - sum(
@@ -89,12 +92,12 @@ class Relaxation:
             for strength, time in zip(self.strengths, self.times, strict=True)
         )
 
-    def loss_factor(self, frequency):
+    def loss_factor(self, frequency: ArrayLike) -> RealArray:
         """Return the loss factor Im K / Re K at given frequencies [Hz]; same shape, [-]."""
         stiffness = self.dynamic_stiffness(frequency)
         return stiffness.imag / stiffness.real
 
-    def recursion(self, time_step, order):
+    def recursion(self, time_step: float, order: int) -> tuple[float, RealArray, RealArray]:
         """Return the numbers that integrate the law step by step.
 
         With S_j the convolution of strain with exp(-s / tau_j), the force is
@@ -130,7 +133,9 @@ class Relaxation:
         return self.instantaneous - float(rate @ now), decay, rate * (decay * now + before)
 
 
-def _relaxed(frequency, instantaneous, strengths, times):
+def _relaxed(
+    frequency: ArrayLike, instantaneous: float, strengths: Sequence[float], times: Sequence[float]
+) -> ComplexArray:
     """Return k_inf - sum_j k_j / (1 + i w tau_j)."""
     angular = 2j * np.pi * np.asarray(frequency, dtype=float)
     return instantaneous - sum(
@@ -139,7 +144,7 @@ def _relaxed(frequency, instantaneous, strengths, times):
     )
 
 
-def relaxation(stiffness, loss_factor):
+def relaxation(stiffness: float | StiffnessCurve, loss_factor: float | LossFactorCurve | None) -> Relaxation:
     """Return the relaxation law of a pad or boot.
 
     Parameters
@@ -166,7 +171,7 @@ def relaxation(stiffness, loss_factor):
     )
 
 
-def laws(design):
+def laws(design: TrackDesign) -> tuple[Relaxation, Relaxation | None]:
     """Return the laws of a design's pads and boots.
 
     Parameters
@@ -182,12 +187,13 @@ def laws(design):
         Law of the boots; None when single-stage.
     """
     pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
-    boot = relaxation(design.boot_stiffness, design.boot_loss_factor) if design.two_stage else None
-    return pad, boot
+    if design.boot_stiffness is None:
+        return pad, None
+    return pad, relaxation(design.boot_stiffness, design.boot_loss_factor)
 
 
 @lru_cache(maxsize=256)
-def fit_loss_factor(loss_factor):
+def fit_loss_factor(loss_factor: float | LossFactorCurve) -> Relaxation:
     """Fit three relaxation terms to a loss factor by least squares.
 
     The sum over :data:`FIT_FREQUENCIES` of squared relative errors of the loss factor is made smallest.
@@ -212,7 +218,7 @@ def fit_loss_factor(loss_factor):
 
 
 @lru_cache(maxsize=256)
-def _fit_stiffness(curve):
+def _fit_stiffness(curve: StiffnessCurve) -> Relaxation:
     """Fit three relaxation terms to measured stiffness and loss factor, errors of both weighed alike.
 
     Beyond the measured frequencies stiffness is left to follow from the loss factor, as causality asks.
@@ -223,7 +229,7 @@ def _fit_stiffness(curve):
     at = covered if covered.size else np.array([curve.points[0][0]])
     stiffness = curve.stiffness(at)
 
-    def relative_errors(law):
+    def relative_errors(law: Relaxation) -> RealArray:
         scale = np.exp(np.mean(np.log(stiffness / law.dynamic_stiffness(at).real)))
         return np.concatenate(
             [
@@ -237,7 +243,7 @@ def _fit_stiffness(curve):
     return _scaled(law, float(scale * law.stiffness(REFERENCE_FREQUENCY)))
 
 
-def _scaled(law, stiffness):
+def _scaled(law: Relaxation, stiffness: float) -> Relaxation:
     """Return a law scaled to have a given stiffness at 50 Hz [N/m]."""
     factor = stiffness / law.stiffness(REFERENCE_FREQUENCY)
     return Relaxation(
@@ -248,17 +254,17 @@ def _scaled(law, stiffness):
     )
 
 
-def _fit(relative_errors, loss_factor):
+def _fit(relative_errors: Callable[[Relaxation], RealArray], loss_factor: float) -> Relaxation:
     """Return the law of static stiffness 1 N/m that makes the sum of squared errors smallest.
 
     Times and strengths are sought by their logarithms, so that they stay positive.
     """
 
-    def law(logarithms, worst_error=0.0):
+    def law(logarithms: RealArray, worst_error: float = 0.0) -> Relaxation:
         strengths, times = loss_factor * np.exp(logarithms[:3]), np.exp(logarithms[3:])
         order = np.argsort(-times)
-        strengths, times = (tuple(float(value) for value in each[order]) for each in (strengths, times))
-        return Relaxation(1.0 + sum(strengths), strengths, times, worst_error)
+        slowest_first, their_times = tuple(strengths[order].tolist()), tuple(times[order].tolist())
+        return Relaxation(1.0 + sum(slowest_first), slowest_first, their_times, worst_error)
 
     start = np.log([1.6, 1.8, 3.0, *_START_TIMES])
     fit = least_squares(

@@ -1,4 +1,4 @@
-"""The exact twin against brute force, physics, and an independent package."""
+"""The frequency-domain solution against brute force, physics, and an independent package."""
 
 import numpy as np
 import pytest
@@ -7,16 +7,14 @@ from hypothesis import strategies as st
 
 import trackig_core as tig
 from trackig_core.frequency_domain.floquet_waves import (
-    INFINITE,
-    Lattice,
     contact_force,
-    dynamic_stiffness,
     exact_spectrum,
     receptance,
     support_force,
     track_decay_rate,
     waves,
 )
+from trackig_core.frequency_domain.lattice import INFINITE, Lattice, dynamic_stiffness
 from trackig_core.track.viscoelastic_law import laws
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]

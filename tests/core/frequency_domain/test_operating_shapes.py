@@ -5,7 +5,8 @@ import pytest
 
 import trackig_core as tig
 from tests.core.frequency_domain.test_floquet_waves import BLOCK, FREQUENCIES, SLAB, dense_response
-from trackig_core.frequency_domain.floquet_waves import Lattice, contact_force, receptance
+from trackig_core.frequency_domain.floquet_waves import contact_force, receptance
+from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
 from trackig_core.frequency_domain.operating_shapes import rail_receptance, steady_shape
 

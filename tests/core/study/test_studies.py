@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import trackig_core as tig
 from trackig_core.names import LONGEST_NAME, is_name
-from trackig_core.study.studies import LONGEST_LINE, MOST_BYTES
+from trackig_core.study.toml_format import LONGEST_LINE, MOST_BYTES
 from trackig_core.track.design import RANGES
 from trackig_core.track.measured_curves import COLUMNS
 

@@ -5,7 +5,8 @@ import pytest
 
 import trackig_core as tig
 from tests.core.slow import run_ring
-from trackig_core.frequency_domain.floquet_waves import Lattice, receptance
+from trackig_core.frequency_domain.floquet_waves import receptance
+from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.time_domain import time_stepping as seam
 from trackig_core.time_domain.decimation import low_pass
 from trackig_core.time_domain.grid import make_grid

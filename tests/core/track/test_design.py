@@ -51,7 +51,7 @@ def test_a_misspelt_field_is_answered_with_the_nearest():
         BLOCK.replace(boot_stifness=20e6)
 
 
-@pytest.mark.parametrize("rail", ["60", None, 60.0])
+@pytest.mark.parametrize("rail", ["UIC 60", None, 60.0])
 def test_a_rail_is_a_rail(rail):
     with pytest.raises(tig.DesignError, match="rail"):
         BLOCK.replace(rail=rail)

@@ -1,0 +1,166 @@
+"""One track made ready to be solved: its design and the laws of its pads and boots, derived once.
+
+Every function that solves or analyses a track takes a design or a :class:`TrackModel`; it makes a model of a
+design by :func:`track_model` and passes the model on, so that laws and natural frequencies are computed once
+however many functions ask for them. SI units and Hz.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property, wraps
+from typing import Any, TypeAlias, TypeVar, cast
+
+from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.frequency_domain.lattice import INFINITE, Lattice, dynamic_stiffness
+from trackig_core.track.design import DesignError, TrackDesign
+from trackig_core.track.viscoelastic_law import Relaxation, laws
+
+_Computed = TypeVar("_Computed")
+
+
+@dataclass(frozen=True, eq=False)
+class Supports:
+    """Dynamic stiffnesses of a support at some frequencies.
+
+    Attributes
+    ----------
+    pad : numpy.ndarray of complex (frequencies,) [N/m]
+        Dynamic stiffness of the pad.
+    boot : numpy.ndarray of complex (frequencies,) [N/m] or None
+        Dynamic stiffness of the boot; None when single-stage.
+    inertia : numpy.ndarray (frequencies,) [N/m] or None
+        Mass of the block times angular frequency squared; None when single-stage.
+    """
+
+    pad: ComplexArray
+    boot: ComplexArray | None = None
+    inertia: RealArray | None = None
+
+    @cached_property
+    def block(self) -> ComplexArray | None:
+        """Force on the block per displacement of it, rail and ground held (frequencies,) [N/m], or None."""
+        if self.boot is None or self.inertia is None:
+            return None
+        return self.pad + self.boot - self.inertia
+
+    @property
+    def stiffness(self) -> ComplexArray:
+        """Force of the support on the rail per displacement of the rail (frequencies,) [N/m]."""
+        block = self.block
+        return self.pad if block is None else self.pad - self.pad**2 / block
+
+    @property
+    def transfer(self) -> ComplexArray:
+        """Force into the ground per displacement of the rail (frequencies,) [N/m]."""
+        boot, block = self.boot, self.block
+        return self.pad if boot is None or block is None else self.pad * boot / block
+
+
+@dataclass(frozen=True, eq=False)
+class TrackModel:
+    """A design and the laws of its pads and boots.
+
+    Attributes
+    ----------
+    design : TrackDesign
+        The track.
+    pad : Relaxation
+        Law of the pads.
+    boot : Relaxation or None
+        Law of the boots; None when single-stage.
+    """
+
+    design: TrackDesign
+    pad: Relaxation
+    boot: Relaxation | None
+    _computed: dict[object, Any] = field(default_factory=dict, init=False, repr=False)
+
+    @property
+    def springs(self) -> tuple[Relaxation, ...]:
+        """Laws of a support's springs, from the rail down: pad and boot, or the pad alone."""
+        return (self.pad,) if self.boot is None else (self.pad, self.boot)
+
+    @property
+    def rigid_blocks(self) -> "TrackModel":
+        """The single-stage track on the same pads, its blocks held still."""
+        if self.boot is None:
+            return self
+        changed = self.design.replace(block_mass=None, boot_stiffness=None, boot_loss_factor=None)
+        return TrackModel(changed, self.pad, None)
+
+    def supports(self, frequency: RealArray, lattice: Lattice = INFINITE) -> Supports:
+        """Return the dynamic stiffnesses of a support.
+
+        Parameters
+        ----------
+        frequency : numpy.ndarray (frequencies,)
+            Frequencies [Hz].
+        lattice : Lattice
+            Continuous or discrete time, and the rule of the damping memory.
+
+        Returns
+        -------
+        Supports
+            Dynamic stiffnesses [N/m] at those frequencies.
+        """
+        pad = dynamic_stiffness(self.pad, frequency, lattice)
+        if self.boot is None or self.design.block_mass is None:
+            return Supports(pad)
+        return Supports(
+            pad,
+            dynamic_stiffness(self.boot, frequency, lattice),
+            self.design.block_mass * lattice.frequency_squared(frequency),
+        )
+
+
+Track: TypeAlias = TrackDesign | TrackModel
+"""A track as functions take it: a design, or the model made of it."""
+
+
+def track_model(track: Track) -> TrackModel:
+    """Return the model of a track.
+
+    Parameters
+    ----------
+    track : TrackDesign or TrackModel
+        A design, or a model, which is returned as it is.
+
+    Returns
+    -------
+    TrackModel
+        Design and laws.
+
+    Raises
+    ------
+    DesignError
+        If it is neither.
+    """
+    if isinstance(track, TrackModel):
+        return track
+    if not isinstance(track, TrackDesign):
+        raise DesignError("design", track, "a TrackDesign, such as PRESETS['slab-track']")
+    return TrackModel(track, *laws(track))
+
+
+def once_per_model(function: Callable[[TrackModel], _Computed]) -> Callable[[Track], _Computed]:
+    """Have a function of a track computed once for each model, which remembers the result.
+
+    Parameters
+    ----------
+    function : callable
+        ``function(model)``; it returns a value that nobody changes.
+
+    Returns
+    -------
+    callable
+        The same function, which takes a design too.
+    """
+
+    @wraps(function)
+    def remembered(design: Track) -> _Computed:
+        model = track_model(design)
+        if function not in model._computed:
+            model._computed[function] = function(model)
+        return cast(_Computed, model._computed[function])
+
+    return remembered

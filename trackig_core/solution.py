@@ -1,0 +1,209 @@
+"""What one call of :func:`trackig_core.solve` computed, and how it is shown in a notebook.
+
+Pandas and Matplotlib are imported only by the methods that use them. SI units, Hz and dB.
+"""
+
+from __future__ import annotations
+
+import html
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from trackig_core.bands import BAND_CENTRES, BAND_LABELS
+from trackig_core.levels.insertion_gain import insertion_gain
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+    from trackig_core.arrays import RealArray
+    from trackig_core.results import ForceSpectrum, InsertionGain, NaturalFrequencies, TimeHistory
+    from trackig_core.time_domain.grid import Grid
+    from trackig_core.track.design import TrackDesign
+    from trackig_core.track.viscoelastic_law import Relaxation
+
+REFERENCE_WORDS = {"line": "straight reference line", "rigid": "rigid track"}
+"""What insertion gain refers to, in words."""
+
+SUMMATION_WORDS = {"energy": "squared support forces summed", "coherent": "support forces summed"}
+"""What is summed over the supports, in words."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution:
+    """Insertion gain of a track, and all that led to it.
+
+    Attributes
+    ----------
+    design : TrackDesign
+        The track that was solved.
+    fidelity : str
+        The solver that was used.
+    gain : InsertionGain
+        Insertion gain and the energies behind it, as defined by the call of :func:`trackig_core.solve`.
+    spectrum : ForceSpectrum
+        Narrow-band energy of the force into the ground.
+    natural_frequencies : NaturalFrequencies
+        Natural frequencies computed from the design, and those observed in the solution.
+    pad_law, boot_law : Relaxation
+        The fitted damping laws and how well they fit; ``boot_law`` is None when single-stage.
+    grid : Grid or None
+        Grid in space and time; None when nothing was stepped in time.
+    history : TimeHistory or None
+        Low-passed time record; None when nothing was stepped in time.
+    notes : tuple of str
+        What the user should know: a halved time step, an extended record, a poor damping fit.
+    """
+
+    design: TrackDesign
+    fidelity: str
+    gain: InsertionGain
+    spectrum: ForceSpectrum
+    natural_frequencies: NaturalFrequencies
+    pad_law: Relaxation
+    boot_law: Relaxation | None
+    grid: Grid | None = None
+    history: TimeHistory | None = None
+    notes: tuple[str, ...] = ()
+    _gains: dict[tuple[str, str], InsertionGain] = field(default_factory=dict, init=False)
+
+    def __post_init__(self) -> None:
+        """Remember the insertion gain that comes with the solution."""
+        self._gains[self.gain.reference, self.gain.summation] = self.gain
+
+    @property
+    def band_centres(self) -> RealArray:
+        """Exact mid-band frequencies (21,) [Hz]."""
+        return BAND_CENTRES
+
+    @property
+    def band_labels(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text (21,) [Hz]."""
+        return BAND_LABELS
+
+    @property
+    def insertion_gain(self) -> RealArray:
+        """Insertion gain per band (21,) [dB]."""
+        return self.gain.levels
+
+    @property
+    def time(self) -> RealArray | None:
+        """Sample times of the force records (samples,) [s]; None when nothing was stepped in time."""
+        return None if self.history is None else self.history.time
+
+    @property
+    def loaded_support_force(self) -> RealArray | None:
+        """Low-passed force into the ground under the wheel (samples,) [N], or None."""
+        return None if self.history is None else self.history.support_force[:, 0]
+
+    @property
+    def total_force(self) -> RealArray | None:
+        """Low-passed force into the ground, summed over all supports (samples,) [N], or None."""
+        return None if self.history is None else self.history.support_force @ self.history.multiplicity
+
+    def gain_for(self, reference: str = "line", summation: str = "energy") -> InsertionGain:
+        """Return the insertion gain by another definition; each definition is computed once.
+
+        Parameters
+        ----------
+        reference : str
+            ``"line"`` or ``"rigid"``, as for :func:`trackig_core.insertion_gain`.
+        summation : str
+            ``"energy"`` or ``"coherent"``, as for :func:`trackig_core.insertion_gain`.
+
+        Returns
+        -------
+        InsertionGain
+            Levels (21,) [dB] and the energies behind them.
+
+        Raises
+        ------
+        ValueError
+            If a choice is not one of the above.
+        """
+        known = self._gains.get((reference, summation))
+        if known is None:
+            loaded_track = self.natural_frequencies.loaded_track
+            known = insertion_gain(self.spectrum, self.design, loaded_track, reference, summation)
+            self._gains[reference, summation] = known
+        return known
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Return the insertion gain as a table, one row per one-third-octave band.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``band_hz``: nominal mid-band frequencies as text [Hz]. Columns: ``centre_hz``, exact
+            mid-band frequency [Hz]; ``insertion_gain_db`` [dB]; ``band_energy_n2s`` and
+            ``reference_energy_n2s``, the two energies that it compares [N2 s].
+        """
+        import pandas
+
+        return pandas.DataFrame(
+            {
+                "centre_hz": BAND_CENTRES,
+                "insertion_gain_db": self.gain.levels,
+                "band_energy_n2s": self.gain.band_energy,
+                "reference_energy_n2s": self.gain.reference_energy,
+            },
+            index=pandas.Index(BAND_LABELS, name="band_hz"),
+        )
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the insertion gain over the bands.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, such as those of another solution; by default new ones.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, with one more line; its label names the fidelity.
+        """
+        import matplotlib.pyplot as plt
+
+        if ax is None:
+            _, ax = plt.subplots(layout="constrained")
+        places = range(len(BAND_LABELS))
+        ax.plot(places, self.gain.levels, drawstyle="steps-mid", label=self.fidelity)
+        ax.set_xticks(places, BAND_LABELS, rotation=90)
+        ax.set_xlabel("One-third-octave band [Hz]")
+        ax.set_ylabel(f"Insertion gain re {REFERENCE_WORDS[self.gain.reference]} [dB]")
+        ax.set_title(f"Insertion gain, {SUMMATION_WORDS[self.gain.summation]}")
+        ax.grid(visible=True, alpha=0.3)
+        return ax
+
+    def _summary(self) -> dict[str, str]:
+        """Return what is worth seeing at a glance, in words."""
+        levels, frequencies = self.gain.levels, self.natural_frequencies
+        summary = {"Fidelity": self.fidelity, "Loaded track": f"{frequencies.loaded_track:.1f} Hz"}
+        if frequencies.coupled_block is not None:
+            summary["Coupled block"] = f"{frequencies.coupled_block:.1f} Hz"
+        lowest, highest = int(levels.argmin()), int(levels.argmax())
+        summary["Insertion gain"] = (
+            f"{levels[lowest]:.1f} dB at {BAND_LABELS[lowest]} Hz to "
+            f"{levels[highest]:.1f} dB at {BAND_LABELS[highest]} Hz"
+        )
+        return summary
+
+    def __repr__(self) -> str:
+        """Return fidelity, natural frequencies and the range of the insertion gain, on one line."""
+        words = (f"{name[0].lower()}{name[1:]} {value}" for name, value in self._summary().items())
+        return f"<Solution: {', '.join(words)}>"
+
+    def _repr_html_(self) -> str:
+        """Return the same as a small table, with the definition and the notes, for a notebook."""
+        rows = self._summary()
+        definition = f"{REFERENCE_WORDS[self.gain.reference]}; {SUMMATION_WORDS[self.gain.summation]}"
+        rows["Definition"] = f"re {definition}"
+        if self.notes:
+            rows["Notes"] = "; ".join(self.notes)
+        cells = (
+            f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
+            f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
+            for name, value in rows.items()
+        )
+        return f"<table>{''.join(cells)}</table>"

@@ -1,0 +1,126 @@
+"""Records of a study: how insertion gain is looked at, and a design with a name and a look."""
+
+from dataclasses import dataclass, field
+
+from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
+from trackig_core.names import allowed, brief, is_name
+from trackig_core.track.catalogue import PRESETS
+from trackig_core.track.design import TrackDesign
+
+
+class StudyError(ValueError):
+    """A study, or the file of one, cannot be used.
+
+    Attributes
+    ----------
+    message : str
+        What is at fault, and what to give instead.
+    path : str
+        Keys that lead to what is at fault, such as ``pinned[2].design.rail``; empty if the whole is.
+    """
+
+    def __init__(self, message: str, path: str = "") -> None:
+        self.path, self.message = path, message
+        super().__init__(f"{path}: {message}" if path else message)
+
+    def __reduce__(self) -> tuple[type, tuple[str, str]]:
+        """Let the error pass between processes."""
+        return type(self), (self.message, self.path)
+
+
+@dataclass(frozen=True)
+class View:
+    """How insertion gain is computed and compared.
+
+    Parameters
+    ----------
+    summation : str
+        ``"energy"`` or ``"coherent"``.
+    reference : str
+        ``"line"`` or ``"rigid"``.
+    base : int or None
+        Number, from 0, of the pinned design from which differences are taken; None: from the current design.
+
+    Raises
+    ------
+    StudyError
+        If a choice is none of these.
+    """
+
+    summation: str = "energy"
+    reference: str = "line"
+    base: int | None = None
+
+    def __post_init__(self) -> None:
+        """Check every choice once."""
+        for name, choices in (("summation", SUMMATIONS), ("reference", REFERENCES)):
+            value = getattr(self, name)
+            if value not in choices:
+                raise StudyError(f"{brief(value)}: give {' or '.join(map(repr, choices))}", f"view.{name}")
+        if self.base is not None:
+            check_count(self.base, "view.base")
+
+
+@dataclass(frozen=True)
+class PinnedDesign:
+    """A design with a name and a look: the one record of a design that is shown beside others.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    design : TrackDesign
+        The design.
+    colour : int or None
+        Number, from 0, of the colour in which an interface draws it; how many colours there are is for the
+        interface to know. None: that of the current design.
+    shown : bool
+        Whether it is drawn, reported and checked.
+    preset : str or None
+        Key of ``PRESETS`` from which it departs, if from any.
+    key : int or None
+        Tells it from all others of its session, whatever their names; None for the current design. It is no
+        part of a study's file.
+
+    Raises
+    ------
+    StudyError
+        If a value is not allowed.
+    """
+
+    name: str
+    design: TrackDesign
+    colour: int | None = 0
+    shown: bool = True
+    preset: str | None = None
+    key: int | None = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        """Check every value once."""
+        if not is_name(self.name):
+            raise StudyError(f"{brief(self.name)}: give {allowed()}", "name")
+        if not isinstance(self.design, TrackDesign):
+            raise StudyError(f"{brief(self.design)}: give a TrackDesign", "design")
+        if self.colour is not None:
+            check_count(self.colour, "colour")
+        if not isinstance(self.shown, bool):
+            raise StudyError(f"{brief(self.shown)}: give true or false", "shown")
+        check_preset(self.preset)
+
+
+def check_kind(value: object, kind: type, path: str) -> None:
+    """Raise a StudyError that names the path if a value is not of a kind."""
+    if not isinstance(value, kind):
+        raise StudyError(f"{brief(value)}: give a {kind.__name__}", path)
+
+
+def check_preset(preset: object) -> None:
+    """Raise a StudyError if a value is neither None nor a key of ``PRESETS``."""
+    if preset is not None and preset not in tuple(PRESETS):
+        raise StudyError(f"{brief(preset)}: give {', '.join(PRESETS)}, or remove it", "preset")
+
+
+def check_count(value: object, path: str) -> None:
+    """Raise a StudyError that names the path if a value is no whole number, 0 or more."""
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        raise StudyError(f"{brief(value)}: give a whole number, 0 or more", path)

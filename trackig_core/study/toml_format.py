@@ -1,0 +1,346 @@
+"""The TOML file of a study, which people read and this module reads back exactly.
+
+SI units, named in the keys (``pad_stiffness_N_per_m``); levels in dB. Numbers are written with as many
+figures as they have, so that what is opened equals what was saved.
+
+A file is hostile until it has been read as a whole. Its size is bounded, what nobody knows is
+refused rather than dropped, and an error says where it is and what to do.
+"""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import tomlkit
+from tomlkit.items import Float, Table, Trivia
+
+from trackig_core.levels.band_tables import BandTable, BandTableError
+from trackig_core.levels.source import SourceSpectrum
+from trackig_core.levels.specification import Specification
+from trackig_core.names import brief
+from trackig_core.study.records import PinnedDesign, StudyError, View
+from trackig_core.track.design import TrackDesign
+from trackig_core.track.fields import DESIGN_FIELDS, RAIL_FIELDS, DesignError
+from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
+from trackig_core.track.rails import Rail
+
+if TYPE_CHECKING:
+    from trackig_core.study.studies import Study
+
+_Made = TypeVar("_Made")
+
+FORMAT = "trackig study"
+"""What every file says it is."""
+
+UNTITLED = "Study"
+"""What a study is called that has no name."""
+
+VERSION = 1
+"""The version of the format that is written, and the newest that is read."""
+
+MOST_BYTES = 262_144
+"""Size that a file may have [bytes]."""
+
+LONGEST_LINE = 200
+"""Characters that a line may have, unless it is a comment [-]. Dotted keys cost a reader the square of their
+length; with this bound the worst file takes about a second."""
+
+_DESIGN_KEYS = {each.name: each.key for each in DESIGN_FIELDS}
+"""Key of each number of a design."""
+
+_RAIL_KEYS = {"name": "name"} | {each.name: each.key for each in RAIL_FIELDS}
+"""Key of the name and of each number of a rail."""
+
+_CURVES: dict[str, tuple[str, type[StiffnessCurve] | type[LossFactorCurve]]] = {
+    "pad_stiffness": ("pad_stiffness_measured", StiffnessCurve),
+    "pad_loss_factor": ("pad_loss_factor_measured", LossFactorCurve),
+    "boot_stiffness": ("boot_stiffness_measured", StiffnessCurve),
+    "boot_loss_factor": ("boot_loss_factor_measured", LossFactorCurve),
+}
+"""Key and class of what may be given as measured over frequency."""
+
+_CURVE_ROWS = {
+    StiffnessCurve: "rows of frequency [Hz], dynamic stiffness [N/m], loss factor [-]",
+    LossFactorCurve: "rows of frequency [Hz], loss factor [-]",
+}
+
+_LEVEL_ROWS = "rows of one-third-octave band [Hz], level [dB]"
+
+_TABLES: dict[str, tuple[type[Specification] | type[SourceSpectrum], str]] = {
+    "specification": (Specification, "ig_max_dB"),
+    "source": (SourceSpectrum, "level_dB"),
+}
+"""Class of each table of levels, and the key of its rows."""
+
+
+class _Section:
+    """A table of a file: what is taken is known, and what is left in the end is refused."""
+
+    def __init__(self, values: Any, path: str = "") -> None:
+        if not isinstance(values, dict):
+            raise StudyError(f"{brief(values)}: give a table of keys and values", path)
+        self._values: dict[str, Any] = values
+        self.path = path
+        self._known: list[str] = []
+
+    def under(self, key: str) -> str:
+        """Return the path of a key."""
+        return f"{self.path}.{key}" if self.path else key
+
+    def take(self, key: str, otherwise: Any = None) -> Any:
+        """Return the value of a key, or ``otherwise`` if it is not there."""
+        self._known.append(key)
+        return self._values.get(key, otherwise)
+
+    def need(self, key: str) -> Any:
+        """Return the value of a key that must be there."""
+        value = self.take(key)
+        if value is None:
+            raise StudyError("it is missing", self.under(key))
+        return value
+
+    def section(self, key: str) -> _Section:
+        """Return the table of a key that must be there."""
+        return _Section(self.need(key), self.under(key))
+
+    def close(self) -> None:
+        """Refuse keys that were not taken."""
+        for key in self._values:
+            if key not in self._known:
+                near = difflib.get_close_matches(key, self._known, n=1)
+                hint = f"write {near[0]!r}" if near else f"known are {', '.join(self._known)}"
+                raise StudyError(f"there is no such key; {hint}, or remove it", self.under(brief(key)[1:-1]))
+
+
+def _parsed(data: str | bytes) -> dict[str, Any]:
+    """Return a file's tables, or raise a StudyError."""
+    if len(data) > MOST_BYTES:
+        raise StudyError(f"the file is larger than {MOST_BYTES // 1024} kB: a study is not")
+    text = _decoded(data).removeprefix("\N{BYTE ORDER MARK}")
+    for number, line in enumerate(text.split("\n"), start=1):
+        if len(line) > LONGEST_LINE and not line.lstrip().startswith("#"):
+            raise StudyError(f"line {number} has more than {LONGEST_LINE} characters: break it at a comma")
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise StudyError(f"this is not TOML: {error}") from None
+    except RecursionError:
+        raise StudyError("brackets or braces are nested too deep: a study needs two levels") from None
+    except ValueError:  # numbers and dates that are TOML, but that Python does not take
+        raise StudyError("a number or date is out of all bounds: write numbers of up to 17 figures") from None
+
+
+def _decoded(data: str | bytes) -> str:
+    if isinstance(data, str):
+        return data
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise StudyError(f"line {line}: this is not UTF-8 text; save the file as UTF-8") from None
+
+
+def read(data: str | bytes) -> dict[str, Any]:
+    """Return what a file holds, as the arguments of a Study.
+
+    Parameters
+    ----------
+    data : str or bytes
+        What the file holds.
+
+    Returns
+    -------
+    dict
+        Checked records by field of :class:`trackig_core.study.studies.Study`.
+
+    Raises
+    ------
+    StudyError
+        If the file cannot be used; the message says where and why.
+    """
+    section = _Section(_parsed(data))
+    if section.take("format") != FORMAT:
+        raise StudyError(f"this is no study: its first line would be format = {FORMAT!r}")
+    _check_version(section.need("version"))
+    view = _view(_Section(section.take("view", {}), "view"))
+    tables = {name: _table(section, name, *kind) for name, kind in _TABLES.items()}
+    pinned = section.take("pinned", [])
+    if not isinstance(pinned, list):
+        raise StudyError(f"{brief(pinned)}: write each pinned design under [[pinned]]", "pinned")
+    values = {
+        "name": section.take("name", UNTITLED),
+        "preset": section.take("preset"),
+        "design": _design(section.section("design")),
+        "view": view,
+        "pinned": [_pinned(_Section(each, f"pinned[{number}]")) for number, each in enumerate(pinned)],
+        **tables,
+    }
+    section.close()
+    return values
+
+
+def _check_version(version: object) -> None:
+    if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
+        raise StudyError(
+            f"{brief(version)}: a newer trackig wrote this file, and this one reads version {VERSION}; "
+            "update trackig to open it",
+            "version",
+        )
+    if version != VERSION or not isinstance(version, int) or isinstance(version, bool):
+        raise StudyError(f"{brief(version)}: give {VERSION}", "version")
+
+
+def _view(section: _Section) -> View:
+    view = View(**{each.name: section.take(each.name, each.default) for each in fields(View)})
+    section.close()
+    return view
+
+
+def _pinned(section: _Section) -> PinnedDesign:
+    name, design = section.need("name"), _design(section.section("design"))
+    colour, shown, preset = section.take("colour", 0), section.take("shown", True), section.take("preset")
+    section.close()
+    try:
+        return PinnedDesign(name, design, colour, shown, preset)
+    except StudyError as error:
+        raise StudyError(error.message, section.under(error.path)) from None
+
+
+def _table(
+    study: _Section, name: str, kind: type[Specification] | type[SourceSpectrum], key: str
+) -> BandTable | None:
+    """Return a specification or source, or None if there is none."""
+    if study.take(name) is None:
+        return None
+    section = study.section(name)
+    points, title = section.need(key), section.take("name", kind.name)
+    section.close()
+    try:
+        return kind(points, title)
+    except BandTableError as error:
+        path = section.path if error.line is None else section.under(key)
+        raise StudyError(str(error), path) from None
+
+
+def _design(section: _Section) -> TrackDesign:
+    values = {name: section.take(key) for name, key in _DESIGN_KEYS.items()}
+    for name, (key, kind) in _CURVES.items():
+        points = section.take(key)
+        if points is None:
+            continue
+        if values[name] is not None:
+            raise StudyError(f"give this or {_DESIGN_KEYS[name]}, not both", section.under(key))
+        try:
+            values[name] = kind(points)
+        except MeasurementError as error:
+            raise StudyError(str(error), section.under(key)) from None
+    for part in ("pad", "boot"):
+        if (
+            isinstance(values[f"{part}_stiffness"], StiffnessCurve)
+            and values[f"{part}_loss_factor"] is not None
+        ):
+            message = f"remove it: {part}_stiffness_measured has loss factors of its own"
+            raise StudyError(message, section.under(f"{part}_loss_factor"))
+    rail_section = section.section("rail")
+    rail_values = {name: rail_section.need(key) for name, key in _RAIL_KEYS.items()}
+    rail_section.close()
+    section.close()
+    rail = _made(Rail, rail_values, _RAIL_KEYS, rail_section)
+    return _made(TrackDesign, {**values, "rail": rail}, _DESIGN_KEYS, section)
+
+
+def _made(
+    kind: Callable[..., _Made], values: Mapping[str, Any], keys: Mapping[str, str], section: _Section
+) -> _Made:
+    """Return an object of the core, its errors named by the key that the file has for the field."""
+    try:
+        return kind(**values)
+    except DesignError as error:
+        what = "it is missing" if error.value is None else brief(error.value)
+        raise StudyError(f"{what}: give {error.allowed}", section.under(keys[error.field])) from None
+
+
+def written(study: Study) -> str:
+    """Return a study as the text of a file."""
+    document = tomlkit.document()
+    document.add(tomlkit.comment("A study of trackig: insertion gain of railway track supports."))
+    document.add(tomlkit.comment("SI units, as the keys say; stiffnesses are dynamic stiffnesses at 50 Hz."))
+    for key, value in (("format", FORMAT), ("version", VERSION), ("name", study.name)):
+        document.add(key, value)
+    if study.preset is not None:
+        document.add("preset", study.preset)
+    document.add("view", _written_view(study.view))
+    document.add("design", _written_design(study.design))
+    for name, (_, key) in _TABLES.items():
+        if getattr(study, name) is not None:
+            document.add(name, _written_table(getattr(study, name), key))
+    if study.pinned:
+        pinned = tomlkit.aot()
+        for each in study.pinned:
+            pinned.append(_written_pinned(each))
+        document.add("pinned", pinned)
+    return tomlkit.dumps(document)
+
+
+def _written_view(view: View) -> Table:
+    table = tomlkit.table()
+    for each in fields(View):
+        if getattr(view, each.name) is not None:
+            table.add(each.name, getattr(view, each.name))
+    return table
+
+
+def _written_pinned(pinned: PinnedDesign) -> Table:
+    table = tomlkit.table()
+    for key in ("name", "colour", "shown", "preset"):
+        if getattr(pinned, key) is not None:
+            table.add(key, getattr(pinned, key))
+    table.add("design", _written_design(pinned.design))
+    return table
+
+
+def _written_design(design: TrackDesign) -> Table:
+    table = tomlkit.table()
+    for name, key in _DESIGN_KEYS.items():
+        value = getattr(design, name)
+        if isinstance(value, StiffnessCurve | LossFactorCurve):
+            _add_rows(table, _CURVES[name][0], value.points, _CURVE_ROWS[type(value)])
+        elif value is not None:
+            table.add(key, _number(value))
+    rail = tomlkit.table()
+    for name, key in _RAIL_KEYS.items():
+        value = getattr(design.rail, name)
+        rail.add(key, value if name == "name" else _number(value))
+    table.add("rail", rail)
+    return table
+
+
+def _written_table(levels: BandTable, key: str) -> Table:
+    table = tomlkit.table()
+    table.add("name", levels.name)
+    _add_rows(table, key, levels.points, _LEVEL_ROWS)
+    return table
+
+
+def _add_rows(table: Table, key: str, points: Iterable[Iterable[float]], comment: str) -> None:
+    rows = tomlkit.array()
+    for point in points:
+        row = tomlkit.array()
+        row.extend(_number(value) for value in point)
+        rows.add_line(row)
+    rows.add_line(indent="")
+    table.add(tomlkit.comment(comment))
+    table.add(key, rows)
+
+
+def _number(value: float) -> Float:
+    """Return a float as TOML, exactly, in the form that engineers read: 28e6, not 28000000.0."""
+    text = repr(value)
+    if not 1e-4 <= abs(value) < 1e5 and value:
+        text = Decimal(text).normalize().to_eng_string().replace("E+", "e").replace("E", "e")
+    return Float(value, Trivia(), text)

@@ -1,0 +1,111 @@
+"""The numbers of a rail and of a design: name, unit, range, and key in a study's file, in one table.
+
+SI units. Ranges are wide enough for any support that has been built and for the very stiff tracks that stand
+in for a rigid one, narrow enough to catch a slip of units.
+"""
+
+import math
+import numbers
+from dataclasses import dataclass
+
+from trackig_core.names import brief
+
+
+@dataclass(frozen=True)
+class Field:
+    """One number of a design or a rail.
+
+    Attributes
+    ----------
+    name : str
+        Name of the attribute.
+    unit : str
+        SI unit; empty if it has none.
+    low, high : float
+        Lowest and highest value [unit].
+    key : str
+        Key in a study's file, which names the unit.
+    """
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    key: str
+
+
+RAIL_FIELDS = (
+    Field("mass_per_metre", "kg/m", 10.0, 200.0, "mass_kg_per_m"),
+    Field("bending_stiffness", "N m2", 1e5, 1e8, "bending_stiffness_N_m2"),
+)
+"""Numbers of a rail."""
+
+DESIGN_FIELDS = (
+    Field("pad_stiffness", "N/m", 1e5, 1e13, "pad_stiffness_N_per_m"),
+    Field("pad_loss_factor", "", 0.0, 1.0, "pad_loss_factor"),
+    Field("block_mass", "kg", 1.0, 1e4, "block_mass_kg"),
+    Field("boot_stiffness", "N/m", 1e5, 1e13, "boot_stiffness_N_per_m"),
+    Field("boot_loss_factor", "", 0.0, 1.0, "boot_loss_factor"),
+    Field("fastener_spacing", "m", 0.1, 2.0, "fastener_spacing_m"),
+    Field("wheel_mass", "kg", 10.0, 1e4, "wheel_mass_kg"),
+    Field("contact_stiffness", "N/m", 1e6, 1e14, "contact_stiffness_N_per_m"),
+)
+"""Numbers of a design."""
+
+RANGES = {each.name: (each.low, each.high, each.unit) for each in (*RAIL_FIELDS, *DESIGN_FIELDS)}
+"""Lowest and highest value, and unit, of each number by name."""
+
+
+class DesignError(ValueError):
+    """A design has a value that no track can have.
+
+    Attributes
+    ----------
+    field : str
+        Name of the field at fault.
+    value : object
+        The value that was given.
+    allowed : str
+        What may be given instead.
+    """
+
+    def __init__(self, field: str, value: object, allowed: str) -> None:
+        self.field, self.value, self.allowed = field, value, allowed
+        super().__init__(f"{field} = {brief(value)}: give {allowed}")
+
+    def __reduce__(self) -> tuple[type, tuple[str, object, str]]:
+        """Let the error pass between processes."""
+        return type(self), (self.field, self.value, self.allowed)
+
+
+def check_number(field: str, value: object) -> float:
+    """Return ``value`` as a float if it is a number within the range of ``field``.
+
+    Parameters
+    ----------
+    field : str
+        A key of :data:`RANGES`.
+    value : object
+        Anything a caller may have given.
+
+    Returns
+    -------
+    float
+        The value [unit of the field].
+
+    Raises
+    ------
+    DesignError
+        If it is not a real, finite number within the range (a bool is not a number).
+    """
+    low, high, unit = RANGES[field]
+    allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise DesignError(field, value, allowed)
+    try:
+        number = float(value)
+    except OverflowError:
+        raise DesignError(field, value, allowed) from None
+    if not (math.isfinite(number) and low <= number <= high):
+        raise DesignError(field, value, allowed)
+    return number
