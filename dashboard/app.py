@@ -20,7 +20,6 @@ from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
 from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
-from dashboard.session.curves import PinnedCurves
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
@@ -77,8 +76,7 @@ def build(store=None, live_store=None):
     inputs, outcome, definition, pins = DesignInputs(), Outcome(), GainDefinition(), Pins()
     store = store or shared_store()
     pinned = PinnedSummaries(pins, store)
-    curves = PinnedCurves(pins, pinned, definition)
-    assessment = Assessment(outcome, definition, pins, pinned, curves)
+    assessment = Assessment(inputs, outcome, definition, pins, pinned)
     snapshot = SessionSnapshot(inputs, definition, pins, assessment, [view.title.lower() for view in VIEWS])
     problems = snapshot.follow(pn.state.session_args)
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
@@ -93,8 +91,8 @@ def build(store=None, live_store=None):
         snapshot.tab = Explore.title.lower()
 
     views = [
-        Explore(outcome, definition, pins, curves, assessment),
-        Compare(inputs, outcome, definition, pins, pinned, curves, show_insertion_gain),
+        Explore(outcome, definition, pins, assessment),
+        Compare(inputs, pins, assessment, show_insertion_gain),
         SpecificationView(assessment, exchange),
         ReceivedLevel(assessment, pins, exchange),
         Track(inputs, outcome),

@@ -115,7 +115,7 @@ class Motion(Subject):
         if summary is None or not self.question.looked_at:
             return
         self.pick.name_axis(gain_axis(self.definition))
-        self.pick.show(level=self.definition.levels(summary.solution))
+        self.pick.show(level=self.definition.gain(summary.solution).levels)
         shape = tig.steady_shape(summary.design, float(self.pick.cursor.location))
         self.shape.show(shape)
         self.shape_words.object = explanations.shape_words(shape)

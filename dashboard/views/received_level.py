@@ -1,6 +1,6 @@
-"""The tab in which insertion gain becomes single numbers: what a source is with each design.
+"""The tab in which insertion gain becomes single numbers: the level of a source with each design.
 
-The one rule: levels are compared within one source; the table says which design they are compared with.
+Levels are compared within one source; the table says which design they are compared with.
 """
 
 import html
@@ -48,8 +48,7 @@ class ReceivedLevel(Viewer):
             assessment, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
         )
         self.base.param.watch(self._choose, "value")
-        pins.param.watch(self._show, ["pinned", "base"])
-        assessment.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, ["results", "base"])
 
     def _offer(self):
         options = {CURRENT_NAME: CURRENT} | {pin.name: pin.key for pin in self._pins.pinned}
@@ -90,23 +89,23 @@ SOURCE_WORDS = "level per band with the reference track; only bands that have on
 NONE_GIVEN = "No source yet: type one below, paste it, or open a CSV file."
 
 
-def levels_html(assessed, source, base):
+def levels_html(results, source, base):
     """Return the levels of a source with designs as HTML, whatever characters their names are made of.
 
     Parameters
     ----------
-    assessed : iterable of Assessed
-        The designs.
+    results : iterable of DesignResult
+        Designs with a solution.
     source : trackig_core.SourceSpectrum or None
         The source.
-    base : Assessed or None
+    base : DesignResult
         The design from which differences are taken.
     """
-    if source is None or base is None:
+    if source is None or base.level is None:
         return f"<p>{NONE_GIVEN}</p>"
     reference = source.with_track(np.zeros_like(base.levels))
     rows = [("", "Reference track", reference)]
-    rows += [(swatch_svg(each.colour, each.dash), html.escape(each.name), each.level) for each in assessed]
+    rows += [(swatch_svg(each.colour, each.dash), html.escape(each.name), each.level) for each in results]
     name = html.escape(base.name)
     head = "".join(
         f'<th scope="col">{words}</th>'
@@ -128,7 +127,7 @@ def _row(mark, name, level, base):
     return f'<tr><th scope="row">{mark}<span class="name">{name}</span></th>{cells}</tr>'
 
 
-def _design(assessed):
-    cells = [["" if np.isnan(level) else formats.plain_text(level), False] for level in assessed.level.bands]
+def _design(result):
+    cells = [["" if np.isnan(level) else formats.plain_text(level), False] for level in result.level.bands]
     parts = [{"words": "level", "cells": cells}]
-    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}
+    return {"name": result.name, "colour": result.colour, "dash": list(result.dash), "parts": parts}

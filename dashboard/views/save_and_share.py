@@ -1,6 +1,6 @@
 """The tab from which everything is taken home: link, study, curves, plots, report.
 
-The one rule: what is opened replaces everything, or nothing and says why.
+What is opened replaces everything, or nothing and says why.
 """
 
 import asyncio
@@ -60,7 +60,7 @@ class SaveAndShare(Viewer):
         ]
         self.study_name.param.watch(self._rename, "value")
         self._assessment.param.watch(self._show_name, "title")
-        self._assessment.param.watch(self._enable, "assessed")
+        self._assessment.param.watch(self._enable, "results")
         exchange.on_file("study", self._open_study)
         self._enable()
 
@@ -103,7 +103,8 @@ class SaveAndShare(Viewer):
 
     async def _save_report(self, *_):
         study, title = self._snapshot.study(), self._file("report.html")
-        summaries = {each.summary.design: each.summary for each in self._assessment.assessed}
+        solved = [each.summary for each in self._assessment.results if each.summary is not None]
+        summaries = {summary.design: summary for summary in solved}
         self.report.loading = True
         try:
             loop = asyncio.get_running_loop()
@@ -165,4 +166,4 @@ LINK_WORDS = (
 STUDY_WORDS = "one file that people can read: designs, pinned designs, specification, source"
 CURVE_WORDS = "of this design and of the pinned designs that are shown"
 PLOT_WORDS = "as they are on the screen"
-NOT_SOLVED = "There is nothing to report yet: wait until the design at hand is solved."
+NOT_SOLVED = "There is nothing to report yet: wait until the current design is solved."

@@ -1,7 +1,4 @@
-"""The tab in which designs are held against a specification: limit, level and margin per band.
-
-The one rule: the verdict stands above the table, in words that can be read from the back row.
-"""
+"""The tab in which designs are compared with a specification: limit, level and margin per band."""
 
 import numpy as np
 import panel as pn
@@ -41,7 +38,7 @@ class SpecificationView(Viewer):
             "Limit, dB",
             "Greatest insertion gain allowed, and the designs",
         )
-        assessment.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, "results")
 
     def look(self, in_sight):
         """Note whether the tab is in sight; if so, show what has changed meanwhile."""
@@ -51,7 +48,7 @@ class SpecificationView(Viewer):
     def _show(self, *_):
         if not self._in_sight:
             return
-        self.verdict.object = verdicts_html(self._assessment.assessed)
+        self.verdict.object = verdicts_html(self._assessment.results)
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
 
     def __panel__(self):
@@ -64,21 +61,21 @@ class SpecificationView(Viewer):
         )
 
 
-WORDS = "bands without a limit say nothing; a margin of exactly 0 dB complies"
+WORDS = "bands without a limit are not assessed; a margin of exactly 0 dB complies"
 
 
-def _design(assessed):
+def _design(result):
     """Return the columns of a design: its insertion gain, and its margin if there is a limit."""
-    verdict = assessed.verdict
-    fails = np.zeros(assessed.levels.size, bool) if verdict is None else verdict.fails
+    verdict = result.verdict
+    fails = np.zeros(result.levels.size, bool) if verdict is None else verdict.fails
     gains = [
         [formats.signed_text(level), bool(failing)]
-        for level, failing in zip(assessed.levels, fails, strict=True)
+        for level, failing in zip(result.levels, fails, strict=True)
     ]
     parts = [{"words": "gain", "cells": gains}]
     if verdict is not None:
         parts.append({"words": "margin", "cells": [_margin_cell(margin) for margin in verdict.margins]})
-    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}
+    return {"name": result.name, "colour": result.colour, "dash": list(result.dash), "parts": parts}
 
 
 def _margin_cell(margin):

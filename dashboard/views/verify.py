@@ -110,10 +110,9 @@ class Verify(Viewer):
             self.words["run"].object = verified.problem
             return
         solution = verified.summary.solution
-        run, exact, scheme = (
-            chosen.levels(solution, spectrum)
-            for spectrum in (None, verified.theory.exact, verified.theory.scheme)
-        )
+        run = chosen.gain(solution).levels
+        exact = chosen.levels_of(verified.theory.exact, solution)
+        scheme = chosen.levels_of(verified.theory.scheme, solution)
         self.comparison.show(run, exact)
         self.difference.show(run - exact)
         self.words["run"].object = (
