@@ -184,7 +184,6 @@ class Outcome(param.Parameterized):
         default=None, bounds=(0, 1), allow_None=True, doc="Part of a long run that is done; None when short."
     )
     from_cache = param.Boolean(default=False, doc="Whether the picture was there already.")
-    verifying = param.Boolean(default=False, doc="Whether anybody looks at the checks.")
     verified = param.ClassSelector(
         class_=VerifiedSummary,
         default=None,

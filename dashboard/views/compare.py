@@ -5,23 +5,23 @@ Nothing is drawn here while nobody looks.
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.client.exchange import tell
+from dashboard.client.exchange import notify
 from dashboard.compute.document import NextTick
 from dashboard.figures.comparison import BaseDifferenceFigure
 from dashboard.session.pins import PinError
 from dashboard.views.comparison_table import table_html
 from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption
 from dashboard.views.pin_list import PinList
+from dashboard.views.tab import Tab
 
 FEW_BANDS = ("16", "31.5", "63", "125", "250")
 """Bands that are listed at first: an octave apart [Hz]."""
 
 
-class Compare(Viewer):
+class Compare(Tab):
     """List of pins, difference from a base, and a table side by side.
 
     Parameters
@@ -37,12 +37,12 @@ class Compare(Viewer):
     """
 
     title = "Compare"
+    link_name = "compare"
 
     def __init__(self, inputs, pins, assessment, on_figure_2):
         super().__init__()
         self._pins, self._assessment = pins, assessment
         self._on_figure_2 = on_figure_2
-        self._in_sight = False
         self.list = PinList(inputs, pins)
         self.table_1 = pmui.Button(label="Pin Table 1", icon="push_pin", on_click=self._pin_table_1, **BUTTON)
         self.figure_2 = pmui.Button(
@@ -67,22 +67,21 @@ class Compare(Viewer):
         pins.param.watch(self._offer_bases, ["pinned", "base"])
         self._offer_bases()
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
-        self._in_sight = in_sight
+    def refresh(self):
+        """Show what has changed while nobody looked."""
         self._show_later()
 
     def _pin_table_1(self, _):
         try:
             self._pins.add_table_1()
         except PinError as problem:
-            tell("warning", str(problem))
+            notify("warning", str(problem))
 
     def _show_figure_2(self, _):
         try:
             self._pins.show_table_1()
         except PinError as problem:
-            tell("warning", str(problem))
+            notify("warning", str(problem))
         else:
             self._on_figure_2()
 
@@ -108,7 +107,7 @@ class Compare(Viewer):
 
     def _show(self, *_):
         assessment = self._assessment
-        if not self._in_sight or assessment.current.summary is None:
+        if not self.in_sight or assessment.current.summary is None:
             return
         base = assessment.base
         self.differences.show(base, [each for each in assessment.shown if each is not base])
@@ -118,7 +117,7 @@ class Compare(Viewer):
             [band for band, label in enumerate(tig.BAND_LABELS) if label in self.bands.value],
         )
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         pinned = pmui.Paper(
             pmui.Row(

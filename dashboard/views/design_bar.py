@@ -10,7 +10,7 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import theme
-from dashboard.client.exchange import tell
+from dashboard.client.exchange import notify
 from dashboard.fields import INPUTS, PRESET_LABELS
 from dashboard.session.history import History
 from dashboard.session.pins import PinError
@@ -90,7 +90,7 @@ class DesignBar(Viewer):
         try:
             pin = self._pins.add(inputs.to_design(), self.name_box.value or usual, inputs.preset)
         except PinError as problem:
-            tell("warning", str(problem))
+            notify("warning", str(problem))
             return
         self.name_box.value = ""
         if pn.state.notifications is not None:

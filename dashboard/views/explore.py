@@ -5,7 +5,6 @@ All three are redrawn together, from the same solution.
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import theme
 from dashboard.compute.document import NextTick
@@ -13,10 +12,11 @@ from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
 from dashboard.views.frequencies import Frequencies
+from dashboard.views.tab import Tab
 from dashboard.views.verdict import ShortVerdict
 
 
-class Explore(Viewer):
+class Explore(Tab):
     """Insertion gain, force and natural frequencies of the current design.
 
     Parameters
@@ -32,6 +32,7 @@ class Explore(Viewer):
     """
 
     title = "Explore"
+    link_name = "explore"
 
     def __init__(self, outcome, definition, pins, assessment):
         super().__init__()
@@ -67,6 +68,7 @@ class Explore(Viewer):
         assessment.param.watch(show, ["results", "preset"])
         pins.param.watch(show, "alone")
         self._show()
+        self._dim()
 
     def _show(self):
         results = self._assessment.results
@@ -98,7 +100,7 @@ class Explore(Viewer):
         for pane in (*self.panes, self.frequencies.pane):
             pane.styles = theme.STALE if self._outcome.stale else theme.FRESH
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         gain_pane, force_pane = self.panes
         gain = pmui.Paper(

@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import theme
-from dashboard.client.exchange import tell
+from dashboard.client.exchange import notify
 from dashboard.session.inputs import values_of
 from dashboard.session.pins import PinError
 from dashboard.views.components import swatch_svg
@@ -77,7 +77,7 @@ class PinRow(Viewer):
             self._pins.rename(self._key, event.new)
         except PinError as problem:
             self.name_box.param.update(error_state=True, helper_text="not taken")
-            tell("warning", str(problem))
+            notify("warning", str(problem))
 
     def _recolour(self, event):
         if event.new != self._pins[self._key].colour:

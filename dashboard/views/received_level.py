@@ -8,14 +8,14 @@ import html
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
 from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption, swatch_svg
+from dashboard.views.tab import Tab
 
 
-class ReceivedLevel(Viewer):
+class ReceivedLevel(Tab):
     """A source on the reference track, and its level with every design.
 
     Parameters
@@ -28,11 +28,11 @@ class ReceivedLevel(Viewer):
         Opens and saves files.
     """
 
-    title = "Level"
+    title = "Received level"
+    link_name = "level"
 
     def __init__(self, assessment, pins, exchange):
         super().__init__()
-        self._in_sight = False
         self._assessment, self._pins = assessment, pins
         self.base = pn.widgets.Select(
             label="Difference from",
@@ -57,14 +57,13 @@ class ReceivedLevel(Viewer):
     def _choose(self, event):
         self._pins.choose_base(event.new or None)
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
-        self._in_sight = in_sight
+    def refresh(self):
+        """Show what has changed while nobody looked."""
         self._show()
 
     def _show(self, *_):
         # a select that was never drawn cannot take new options
-        if not self._in_sight:
+        if not self.in_sight:
             return
         self._offer()
         self.table.object = levels_html(
@@ -74,7 +73,7 @@ class ReceivedLevel(Viewer):
             _design(each) for each in self._assessment.shown if each.level is not None
         ]
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         return pmui.Column(
             pmui.Paper(caption("Level with the track", WORDS), self.base, self.table, **PAPER),

@@ -3,15 +3,15 @@
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
 from dashboard.views.components import PAPER, caption
+from dashboard.views.tab import Tab
 from dashboard.views.verdict import verdicts_html
 
 
-class SpecificationView(Viewer):
+class SpecificationView(Tab):
     """The required insertion gain, and how the designs fare.
 
     Parameters
@@ -23,10 +23,10 @@ class SpecificationView(Viewer):
     """
 
     title = "Specification"
+    link_name = "specification"
 
     def __init__(self, assessment, exchange):
         super().__init__()
-        self._in_sight = False
         self._assessment = assessment
         self.verdict = pn.pane.HTML(
             "", stylesheets=[theme.VERDICT_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
@@ -40,18 +40,17 @@ class SpecificationView(Viewer):
         )
         assessment.param.watch(self._show, "results")
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
-        self._in_sight = in_sight
+    def refresh(self):
+        """Show what has changed while nobody looked."""
         self._show()
 
     def _show(self, *_):
-        if not self._in_sight:
+        if not self.in_sight:
             return
         self.verdict.object = verdicts_html(self._assessment.results)
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         return pmui.Column(
             pmui.Paper(caption("Verdict", WORDS), self.verdict, **PAPER),

@@ -34,7 +34,7 @@ class Session:
         self.assessment = Assessment(self.inputs, self.outcome, self.definition, self.pins, self.pinned)
         self.asked = []
         self.view = Compare(self.inputs, self.pins, self.assessment, lambda: self.asked.append(True))
-        self.view.look(in_sight=True)
+        self.view.look(active=True)
 
     def level(self, key):
         return tig.solve(tig.PRESETS[key]).insertion_gain
@@ -120,10 +120,10 @@ def test_the_choice_of_sum_is_compared_too(session):
 
 def test_nothing_is_drawn_while_nobody_looks(session, summary):
     before = session.table
-    session.view.look(in_sight=False)
+    session.view.look(active=False)
     session.outcome.summary = summary("booted-block-high-mass")
     assert session.table == before
-    session.view.look(in_sight=True)
+    session.view.look(active=True)
     assert session.table != before
 
 
@@ -260,13 +260,13 @@ def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     inputs = DesignInputs()
     track = Track(inputs, Outcome(summary=summary("slab-track")))
     assert track.drawing.object == ""
-    track.look(in_sight=True)
+    track.look(active=True)
     inputs.block_mass = 222.0
     assert "222 kg" in track.drawing.object
-    track.look(in_sight=False)
+    track.look(active=False)
     inputs.block_mass = 111.0
     assert "222 kg" in track.drawing.object
     inputs.two_stage = False
-    track.look(in_sight=True)
+    track.look(active=True)
     assert "kg" in track.drawing.object
     assert "111 kg" not in track.drawing.object

@@ -199,6 +199,20 @@ def test_pins_that_are_shown_are_drawn_behind_the_design(explore, outcome, summa
     assert not len(view.force.pins[1].data["time"])
 
 
+def test_a_specification_is_drawn_as_a_limit_as_soon_as_it_is_given(outcome, summary, make_pictures):
+    definition, pins = GainDefinition(), Pins()
+    outcome.summary = summary("booted-block-low-mass")
+    assessment = Assessment(DesignInputs(), outcome, definition, pins, make_pictures())
+    view = Explore(outcome, definition, pins, assessment)
+    band = tig.BAND_LABELS.index("63")
+    assessment.specification = tig.Specification([(63, -3.0)])
+    assert view.insertion_gain.limit.data["limit"][band] == -3.0
+    assessment.specification = tig.Specification([(63, -4.0)])
+    assert view.insertion_gain.limit.data["limit"][band] == -4.0
+    assessment.specification = None
+    assert np.isnan(view.insertion_gain.limit.data["limit"]).all()
+
+
 def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, summary, make_pictures):
     pins, definition = Pins(), GainDefinition()
     pins.add(tig.PRESETS["slab-track"].replace(pad_stiffness=500e6), "of my own")
