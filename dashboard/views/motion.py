@@ -14,8 +14,7 @@ from dashboard.figures.axes import BAND_AXIS
 from dashboard.figures.learn import PickFigure
 from dashboard.figures.motion import FilmPlayer, ShapePlayer
 from dashboard.teaching import explanations
-from dashboard.views.components import bokeh_pane, gain_axis
-from dashboard.views.sidebar import QuickSlider
+from dashboard.views.components import QuickSlider, bokeh_pane, gain_axis
 from dashboard.views.subjects import Subject, panel_of, words
 
 STEPS_PER_DECADE = 100

@@ -11,6 +11,7 @@ from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
+from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
 from dashboard.views.components import swatch_svg
@@ -227,6 +228,17 @@ def test_a_preset_is_one_step(bar):
     bar.bar.undo.param.trigger("clicks")
     assert bar.inputs.preset == "booted-block-low-mass"
     assert bar.inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
+    assert bar.bar.undo.disabled
+
+
+def test_a_lesson_sets_the_sliders_in_one_step(bar):
+    before = bar.inputs.to_values()
+    set_sliders(bar.inputs, {"preset": "booted-sleeper", "boot_stiffness": 20.0, "wheel_mass": 700.0})
+    expected = tig.PRESETS["booted-sleeper"].replace(boot_stiffness=20e6, wheel_mass=700.0)
+    assert bar.inputs.to_design() == expected
+    assert bar.inputs.preset == "booted-sleeper"
+    bar.bar.undo.param.trigger("clicks")
+    assert bar.inputs.to_values() == before
     assert bar.bar.undo.disabled
 
 
