@@ -1,9 +1,10 @@
 """Composition root: the one place where inputs, runner, controls and views meet.
 
-The one rule: parts are made here and handed to each other; no part looks another up.
+Parts are made here and handed to each other; no part looks another up.
 """
 
 import logging
+from functools import partial
 
 import panel as pn
 import panel_material_ui as pmui
@@ -12,15 +13,13 @@ from panel.util import edit_readonly
 
 from dashboard import theme
 from dashboard.client.browser import Browser
-from dashboard.client.exchange import HANDLING_FAILED, Exchange
-from dashboard.client.exchange import tell as tell_user
+from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
 from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
-from dashboard.session.curves import PinnedCurves
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
@@ -60,7 +59,7 @@ def build(store=None, live_store=None):
     Parameters
     ----------
     store, live_store : SolutionStore, optional
-        Where pictures come from, at rest and moving; by default those that all sessions share.
+        Where solutions come from, at rest and moving; by default those that all sessions share.
 
     Returns
     -------
@@ -71,90 +70,97 @@ def build(store=None, live_store=None):
         "katex",
         notifications=True,
         reconnect=False,
-        exception_handler=tell,
+        exception_handler=report_error,
         disconnect_notification=CONNECTION_LOST,
     )
     inputs, outcome, definition, pins = DesignInputs(), Outcome(), GainDefinition(), Pins()
     store = store or shared_store()
     pinned = PinnedSummaries(pins, store)
-    curves = PinnedCurves(pins, pinned, definition)
-    assessment = Assessment(outcome, definition, pins, pinned, curves)
-    snapshot = SessionSnapshot(inputs, definition, pins, assessment, [view.title.lower() for view in VIEWS])
+    assessment = Assessment(inputs, outcome, definition, pins, pinned)
+    snapshot = SessionSnapshot(inputs, definition, pins, assessment, [tab.link_name for tab in TABS])
     problems = snapshot.follow(pn.state.session_args)
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
-    VerificationRunner(outcome)
+    checker = VerificationRunner(outcome)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
-    pn.state.onload(lambda: tell_problems(problems))
+    pn.state.onload(lambda: notify_of_problems(problems))
     browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
 
     def show_insertion_gain():
-        snapshot.tab = Explore.title.lower()
+        snapshot.tab = Explore.link_name
 
-    views = [
-        Explore(outcome, definition, pins, curves, assessment),
-        Compare(inputs, outcome, definition, pins, pinned, curves, show_insertion_gain),
-        SpecificationView(assessment, exchange),
-        ReceivedLevel(assessment, pins, exchange),
-        Track(inputs, outcome),
-        Learn(inputs, outcome, definition),
-        Verify(outcome, definition),
-        Method(),
-        SaveAndShare(snapshot, exchange),
-    ]
-    status = Status(outcome, runner.stop, runner.solve_again)
+    makers = {
+        Explore: partial(Explore, outcome, definition, pins, assessment),
+        Compare: partial(Compare, inputs, pins, assessment, show_insertion_gain),
+        SpecificationView: partial(SpecificationView, assessment, exchange),
+        ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
+        Track: partial(Track, inputs, outcome),
+        Learn: partial(Learn, inputs, outcome, definition),
+        Verify: partial(Verify, outcome, definition, checker.look),
+        Method: Method,
+        SaveAndShare: partial(SaveAndShare, snapshot, exchange),
+    }
+    status = Status(outcome, runner.stop, runner.request)
     sidebar = [DesignBar(inputs, pins, browser), Controls(inputs)]
-    return page(sidebar, status, tabs(outcome, snapshot, views, exchange), browser, exchange)
+    return page(sidebar, status, tabs(snapshot, makers, exchange), browser, exchange)
 
 
-VIEWS = (Explore, Compare, SpecificationView, ReceivedLevel, Track, Learn, Verify, Method, SaveAndShare)
-"""The tabs, in their order; a link names one by its title."""
+TABS = (Explore, Compare, SpecificationView, ReceivedLevel, Track, Learn, Verify, Method, SaveAndShare)
+"""The tabs, in their order."""
 
 
-def tabs(outcome, snapshot, views, exchange):
-    """Return the views as tabs; those that work only while somebody looks are told when they are in sight.
+def tabs(snapshot, makers, exchange):
+    """Return the tabs; each view is made when it is first looked at, and told whether it is in sight.
 
-    A tab is empty until it is first looked at: a page with all of them would take three times as long.
+    A page with all of them would take several times as long to open.
+
+    Parameters
+    ----------
+    snapshot : SessionSnapshot
+        Which tab is open.
+    makers : mapping of type to callable
+        How each of :data:`TABS` is made.
+    exchange : Exchange
+        Prepares the browser for what is added.
     """
-    names = [view.title.lower() for view in views]
     places = [
         pn.Column(
             pn.pane.HTML(OPENING, stylesheets=[theme.OPENING_CSS]), sizing_mode="stretch_width", margin=0
         )
-        for _ in views
+        for _ in TABS
     ]
-    unseen = set(range(len(views)))
-    titled = zip((view.title for view in views), places, strict=True)
+    titled = zip((tab.title for tab in TABS), places, strict=True)
     shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0)
+    views = {}
 
-    def tell_views(*_):
-        active = views[shown.active]
-        snapshot.tab = names[shown.active]
-        outcome.verifying = isinstance(active, Verify)
-        for view in views:
-            if isinstance(view, (Compare, Learn, ReceivedLevel, SpecificationView, Track)):
-                view.look(view is active)
+    def look(*_):
+        kind = TABS[shown.active]
+        snapshot.tab = kind.link_name
+        new = kind not in views
+        if new:
+            views[kind] = makers[kind]()
+        for each, view in views.items():
+            view.look(each is kind)
         # last, since not all widgets can change before the browser has drawn them
-        if shown.active in unseen:
-            unseen.remove(shown.active)
-            places[shown.active].objects = [active]
+        if new:
+            places[shown.active].objects = [views[kind]]
             exchange.introduce()
 
     def open_tab(*_):
-        shown.active = names.index(snapshot.tab)
+        shown.active = [tab.link_name for tab in TABS].index(snapshot.tab)
 
     open_tab()
-    tell_views()
-    shown.param.watch(tell_views, "active")
+    look()
+    shown.param.watch(look, "active")
     snapshot.param.watch(open_tab, "tab")
     return shown
 
 
-def tell_problems(problems):
-    """Tell the user what of a link could not be followed."""
+def notify_of_problems(problems):
+    """Say what of a link could not be followed."""
     for words in problems:
-        tell_user("warning", words)
+        notify("warning", words)
 
 
 def page(sidebar, status, main, browser, exchange):
@@ -181,7 +187,7 @@ def page(sidebar, status, main, browser, exchange):
     return whole
 
 
-def tell(error):
-    """Log an exception that escaped a callback, and tell the user so in plain words."""
+def report_error(error):
+    """Log an exception that escaped a callback, and say so in plain words."""
     log.error("A callback failed", exc_info=error)
-    tell_user("error", HANDLING_FAILED)
+    notify("error", HANDLING_FAILED)

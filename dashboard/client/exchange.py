@@ -68,7 +68,7 @@ class Scripted(pn.custom.JSComponent):
                 self.handle_message(message)
         except Exception:
             log.exception("A message from the browser could not be heeded")
-            tell("error", HANDLING_FAILED)
+            notify("error", HANDLING_FAILED)
 
 
 class Exchange(Scripted):
@@ -147,13 +147,13 @@ class Exchange(Scripted):
             case {"kind": "restore", "data": str(data)}:
                 self._restore(data)
             case {"kind": "copied", "data": bool(copied)}:
-                tell("success", COPIED) if copied else tell("warning", NOT_COPIED)
+                notify("success", COPIED) if copied else notify("warning", NOT_COPIED)
             case {"kind": "show", "data": str(name)} if name in PLOTS:
                 self._left, self._snapshot.tab = self._snapshot.tab, PLOTS[name]
             case {"kind": "back"} if self._left is not None:
                 self._left, self._snapshot.tab = None, self._left
             case {"kind": "not_drawn"}:
-                tell("warning", NOT_DRAWN)
+                notify("warning", NOT_DRAWN)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
                 self._openers[purpose](data)
 
@@ -163,12 +163,12 @@ class Exchange(Scripted):
         except ValueError:
             # it was in the browser's memory, where anybody may have written
             log.info("A page's memory was refused", exc_info=True)
-            tell("warning", NOT_RESTORED)
+            notify("warning", NOT_RESTORED)
         self._note()
         self._send_msg({"kind": "keep"})
 
 
-def tell(kind, words):
+def notify(kind, words):
     """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``."""
     if pn.state.notifications is not None:
         getattr(pn.state.notifications, kind)(words, duration=8000)

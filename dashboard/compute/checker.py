@@ -1,10 +1,12 @@
-"""Holds the picture against theory while somebody looks at the checks, off the event loop.
+"""Compares the solution with theory while somebody looks at the checks, off the event loop.
 
-The one rule: nothing is checked that nobody looks at, and only the newest picture is.
+Nothing is checked that nobody looks at, and only the newest solution is.
 """
 
 import asyncio
 from functools import lru_cache
+
+import param
 
 import trackig_core as tig
 from dashboard.compute.latest import Latest, publish, readable
@@ -12,12 +14,12 @@ from dashboard.compute.workers import workers
 from dashboard.session.results import VerifiedSummary
 
 CAPACITY = 64
-"""Checked pictures kept; one holds some 0.2 MB."""
+"""Checked solutions kept; one holds some 0.2 MB."""
 
 
 @lru_cache(maxsize=CAPACITY)
 def check(summary):
-    """Return a picture with what theory says of it.
+    """Return a solution with what theory says of it.
 
     Parameters
     ----------
@@ -26,8 +28,8 @@ def check(summary):
 
     Returns
     -------
-    Checked
-        The exact answers, or why there are none.
+    VerifiedSummary
+        The frequency-domain solution, or why there are none.
     """
     try:
         return VerifiedSummary(summary, tig.verify(summary.solution))
@@ -35,7 +37,7 @@ def check(summary):
         return VerifiedSummary(summary, None, readable(error))
 
 
-class VerificationRunner:
+class VerificationRunner(param.Parameterized):
     """Watches an outcome and keeps its checks up to date while they are looked at.
 
     Parameters
@@ -44,12 +46,21 @@ class VerificationRunner:
         What is watched and kept up to date.
     """
 
+    looked_at = param.Boolean(default=False, doc="Whether anybody looks at the checks.")
+
     def __init__(self, outcome):
+        super().__init__()
         self._outcome = outcome
-        outcome.param.watch(Latest(self._check).ask, ["summary", "verifying"])
+        latest = Latest(self._check)
+        outcome.param.watch(latest.ask, "summary")
+        self.param.watch(latest.ask, "looked_at")
+
+    def look(self, looked_at):
+        """Note whether anybody looks; if so, check what there is."""
+        self.looked_at = looked_at
 
     async def _check(self, document):
         summary = self._outcome.summary
-        if self._outcome.verifying and summary is not None:
+        if self.looked_at and summary is not None:
             verified = await asyncio.get_running_loop().run_in_executor(workers(), check, summary)
             publish(self._outcome, document, verified=verified)

@@ -1,7 +1,7 @@
 """Draws when drawing is allowed.
 
 A click on a button is handled while nobody holds the document's lock; figures may change only under it, as
-they do in a next-tick callback. The one rule: however many changes ask for it, it is drawn once.
+they do in a next-tick callback. However many changes ask for it meanwhile, it is drawn once.
 """
 
 import contextlib
@@ -11,6 +11,10 @@ from functools import partial
 import panel as pn
 
 log = logging.getLogger(__name__)
+
+_open = []
+"""Documents that may change now, since a next-tick callback holds their lock; it is released before any other
+work of the event loop."""
 
 
 class NextTick:
@@ -27,9 +31,12 @@ class NextTick:
         self._due = False
 
     def __call__(self, *_):
-        """Ask for it; without a session, as in tests and while a page is made, it is done at once."""
+        """Ask for it; it is done at once where the document may change already.
+
+        So it is without a session, as in tests and while a page is made.
+        """
         document = pn.state.curdoc
-        if document is None or document.session_context is None or document.session_context.session is None:
+        if document in _open or not _has_session(document):
             self._draw()
         elif not self._due:
             self._due = True
@@ -42,6 +49,11 @@ class NextTick:
                 self._draw()
         except Exception:
             log.exception("A change could not be drawn")
+
+
+def _has_session(document):
+    context = None if document is None else document.session_context
+    return context is not None and context.session is not None
 
 
 def on_next_tick(document, change):
@@ -67,8 +79,13 @@ def one_message(document):
     Parameters
     ----------
     document : bokeh.document.Document or None
-        The session's document.
+        The session's document, its lock held by whoever asks.
     """
-    # before the page says that it is loaded, Panel drops what it holds, even if the browser has its document
-    with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
-        yield
+    _open.append(document)
+    try:
+        # before the page says that it is loaded, Panel drops what it holds, even if the browser has its
+        # document
+        with pn.io.hold(document) if pn.state.loaded else contextlib.nullcontext():
+            yield
+    finally:
+        _open.pop()

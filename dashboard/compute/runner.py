@@ -14,6 +14,8 @@ import contextlib
 import logging
 import time
 
+import param
+
 import trackig_core as tig
 from dashboard.compute.latest import Latest, publish, readable
 from dashboard.compute.workers import AT_REST, MOVING, compiled
@@ -51,7 +53,7 @@ class _SlowError(Exception):
     """A live run takes longer than the paper's would."""
 
 
-class Runner:
+class Runner(param.Parameterized):
     """Watches inputs and keeps an outcome up to date.
 
     Parameters
@@ -64,7 +66,10 @@ class Runner:
         Where pictures at rest come from, and those that follow the hand.
     """
 
+    requests = param.Integer(default=0, doc="How often the inputs were to be solved as they stand.")
+
     def __init__(self, inputs, outcome, store, live_store):
+        super().__init__()
         self.inputs = inputs
         self.outcome = outcome
         self._store = store
@@ -72,13 +77,14 @@ class Runner:
         self._latest = Latest(self._solve)
         self._stopping = False
         self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
+        self.param.watch(self._on_change, "requests")
 
     def start(self):
         """Show the picture of the inputs as they stand: at once if the store has it, else when solved."""
         design = self.inputs.to_design()
         summary = self._store.kept((design, AT_REST))
         if summary is None:
-            self.solve_again()
+            self.request()
         else:
             self.outcome.param.update(**self._success(design, summary, from_cache=True))
 
@@ -87,9 +93,9 @@ class Runner:
         self._stopping = True
         self._latest.news.clear()
 
-    def solve_again(self, *_):
-        """Solve the inputs as they stand, after a stop or a failure."""
-        self.inputs.param.trigger(*PHYSICAL)
+    def request(self, *_):
+        """Solve the inputs as they stand: at first, and after a stop or a failure."""
+        self.requests += 1
 
     def close(self, *_):
         """Stop watching and solving: the session is over."""

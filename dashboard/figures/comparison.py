@@ -61,38 +61,36 @@ class BaseDifferenceFigure:
         )
         self.model.add_tools(self._hover)
 
-    def show(self, base, levels, curves):
+    def show(self, base, results):
         """Draw differences.
 
         Parameters
         ----------
-        base : numpy.ndarray (21,) or None
-            Insertion gain of the base [dB]; None if it is not there yet: then nothing is drawn.
-        levels : numpy.ndarray (21,) or None
-            Insertion gain of the design at hand [dB]; None if that is the base.
-        curves : tuple of Curve
-            Insertion gain of up to eight pinned designs, the base not among them.
+        base : DesignResult
+            The design from which differences are taken; nothing is drawn as long as it has no solution.
+        results : sequence of DesignResult
+            Designs with a solution, the base not among them; the current design, if there, is the first.
         """
-        if base is None:
-            levels, curves = None, ()
-        differences = [curve._replace(drawn=curve.drawn - base) for curve in curves]
-        hand = None if levels is None else levels - base
+        results = () if base.levels is None else results
+        pinned = [each for each in results if each.key is not None]
+        differences = [each.levels - base.levels for each in pinned]
+        hand = next((each.levels - base.levels for each in results if each.key is None), None)
         self.differences.data = _columns(differences, hand)
-        self._pinned.show(differences)
+        self._pinned.show(pinned)
         self._hand.visible = hand is not None
         own = [] if hand is None else [self._entry]
         update_legend(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
         tooltips = [] if hand is None else [("this design", f"@centre{{{CURRENT}}}")]
-        tooltips += [(curve.name, f"@centre{{{place}}}") for place, curve in enumerate(differences)]
+        tooltips += [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)]
         self._hover.update(
             renderers=self._pinned.lines[:1] if hand is None else [self._hand],
             tooltips=ALONE_TOOLTIPS + tooltips,
         )
-        drawn = [curve.drawn for curve in differences] + ([] if hand is None else [hand])
+        drawn = [*differences, *([] if hand is None else [hand])]
         reach = max([LEAST_REACH, *(np.abs(each).max() for each in drawn)])
         self._ends.show(-reach, reach, LEVEL_STEP)
 
 
-def _columns(curves, hand):
+def _columns(differences, hand):
     own = NO_LEVELS if hand is None else hand
-    return {**pin_columns(curves), f"pin_{CURRENT}": own}
+    return {**pin_columns(differences), f"pin_{CURRENT}": own}

@@ -19,7 +19,14 @@ from tsdownsample import MinMaxDownsampler
 
 from dashboard import theme
 from dashboard.figures.axes import AxisEnds, blank_figure
-from dashboard.figures.legends import MOST_CURVES, PinnedLines, legend_entry, new_legend, update_legend
+from dashboard.figures.legends import (
+    MOST_CURVES,
+    PinnedLines,
+    are_the_same,
+    legend_entry,
+    new_legend,
+    update_legend,
+)
 
 TIME_AXIS = (-0.005, 0.25)
 """What the time axis shows at first [s]; the rest of the record is a pan or a zoom away."""
@@ -121,7 +128,7 @@ class ForceFigure:
             y_axis_label="Force into the ground, kN",
             stylesheets=[theme.LOW],
         )
-        self._summary, self._curves = None, ()
+        self._summary, self._drawn = None, ()
         self._count_time_as_zoom_asks()
         self._draw_forces()
         self.model.on_event(RangesUpdate, self._zoomed)
@@ -146,7 +153,7 @@ class ForceFigure:
         update_legend(self._legend, self._entries, self._entries)
 
     def _draw_force(self, column, words, colour, dash):
-        """Draw a force of the design at hand, and return its entry in the legend."""
+        """Draw a force of the current design, and return its entry in the legend."""
         plot = self.model
         line = plot.line(
             x="time",
@@ -168,20 +175,20 @@ class ForceFigure:
         )
         return legend_entry(plot, words, line)
 
-    def show(self, summary, curves=()):
-        """Draw a picture, and behind it the total force of pinned designs.
+    def show(self, current, pinned=()):
+        """Draw the forces of the current design, and behind them the total force of pinned ones.
 
         Parameters
         ----------
-        summary : SolutionSummary
-            What is drawn.
-        curves : tuple of Curve
-            Up to eight pinned designs; the same tuple again is not sent again.
+        current : DesignResult
+            The current design, stepped in time.
+        pinned : tuple of DesignResult
+            Pinned designs, stepped in time; the same ones again are not sent again.
         """
-        new = curves is not self._curves
-        self._summary, self._curves = summary, curves
-        forces = [summary.total_force, summary.loaded_support_force]
-        forces += [curve.drawn.total_force for curve in curves]
+        new = not are_the_same(pinned, self._drawn)
+        self._summary, self._drawn = current.summary, pinned
+        forces = [self._summary.total_force, self._summary.loaded_support_force]
+        forces += [each.summary.total_force for each in pinned]
         self._forces.show(
             *rounded_ends(min(each.min() for each in forces), max(each.max() for each in forces))
         )
@@ -189,7 +196,7 @@ class ForceFigure:
         self._send(*ends)
         if new:
             self._send_pinned(*ends)
-            self._pinned.show(curves)
+            self._pinned.show(pinned)
             entries = self._entries + self._pinned.entries
             update_legend(self._legend, entries, self._entries + self._pinned.shown_entries)
 
@@ -205,9 +212,10 @@ class ForceFigure:
         self.samples.data = _in_view(summary.time, forces, start, end)
 
     def _send_pinned(self, start, end):
-        for source, curve in zip(self.pins, self._curves, strict=False):
-            source.data = _in_view(curve.drawn.time, {"total": curve.drawn.total_force}, start, end)
-        for source in self.pins[len(self._curves) :]:
+        for source, each in zip(self.pins, self._drawn, strict=False):
+            forces = {"total": each.summary.total_force}
+            source.data = _in_view(each.summary.time, forces, start, end)
+        for source in self.pins[len(self._drawn) :]:
             if len(source.data["time"]):
                 source.data = {"time": [], "total": []}
 

@@ -34,6 +34,7 @@ from dashboard.figures.legends import (
     MOST_CURVES,
     NO_LABEL,
     PinnedLines,
+    are_the_same,
     legend_entry,
     new_legend,
     update_legend,
@@ -113,7 +114,7 @@ class InsertionGainFigure:
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
         self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
-        self._curves, self._limited = (), False
+        self._drawn, self._limited = (), False
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
             name="insertion_gain_figure",
@@ -206,39 +207,38 @@ class InsertionGainFigure:
         """Say on the axis which insertion gain is drawn."""
         self.model.yaxis.axis_label = words
 
-    def show(self, levels, preset_levels, natural, curves=(), limit=None, alone=False):
+    def show(self, current, pinned=(), preset=None, limit=None, alone=False):
         """Draw insertion gain, and behind it that of the preset it departs from and of pinned designs.
 
         Parameters
         ----------
-        levels : numpy.ndarray (21,)
-            Insertion gain [dB].
-        preset_levels : numpy.ndarray (21,) or None
-            What it is compared with [dB].
-        natural : trackig_core.NaturalFrequencies
-            What is marked.
-        curves : tuple of Curve
-            Up to eight pinned designs; the same tuple again is not sent again.
+        current : DesignResult
+            The current design, solved; its natural frequencies are marked.
+        pinned : tuple of DesignResult
+            Pinned designs, solved; the same ones again are not sent again.
+        preset : DesignResult or None
+            The preset from which the current design departs, if it does.
         limit : numpy.ndarray (21,) or None
             Greatest insertion gain allowed [dB], NaN in bands that have no limit.
         alone : bool
-            Whether the curves stand alone: then of the design at hand nothing is drawn.
+            Whether the pinned designs stand alone: then of the current design nothing is drawn.
         """
-        preset = NO_LEVELS if preset_levels is None or alone else preset_levels
+        levels, natural = current.levels, current.summary.solution.natural_frequencies
+        preset = NO_LEVELS if preset is None or alone else preset.levels
         self.bands.data = _band_columns(levels, preset)
         self._show_limit(limit, NO_LEVELS if alone else levels)
         for part in (self._fill, self._line, self._dots):
             part.visible = not alone
         self._loaded_track.show(None if alone else natural.loaded_track)
         self._coupled_block.show(None if alone else natural.coupled_block)
-        self._show_curves(curves)
-        self._tell(curves, alone)
+        self._show_pinned(pinned)
+        self._name_on_hover(pinned, alone)
         self._list_what_is_drawn()
         seen = [
             NO_LEVELS if alone else levels,
             preset,
             self.limit.data["limit"],
-            *(curve.drawn for curve in curves),
+            *(each.levels for each in pinned),
             LEAST_LEVELS,
         ]
         every = np.concatenate(seen)
@@ -252,19 +252,19 @@ class InsertionGainFigure:
         self._limited = limit is not None
         self.limit.data = _limit_columns(NO_LEVELS if limit is None else limit, levels)
 
-    def _show_curves(self, curves):
-        if curves is self._curves:
+    def _show_pinned(self, pinned):
+        if are_the_same(pinned, self._drawn):
             return
-        self._curves = curves
-        self.pins.data = pin_columns(curves)
-        self._pinned.show(curves)
+        self._drawn = pinned
+        self.pins.data = pin_columns([each.levels for each in pinned])
+        self._pinned.show(pinned)
 
-    def _tell(self, curves, alone):
-        """Tell what is drawn when the pointer rests on a band."""
+    def _name_on_hover(self, pinned, alone):
+        """Say what is drawn when the pointer rests on a band."""
         tooltips = ALONE_TOOLTIPS if alone else TOOLTIPS
         self._hover.update(
             renderers=self._pinned.lines[:1] if alone else [self._dots],
-            tooltips=tooltips + [(curve.name, f"@centre{{{place}}}") for place, curve in enumerate(curves)],
+            tooltips=tooltips + [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)],
         )
 
     def _list_what_is_drawn(self):
@@ -307,11 +307,10 @@ def _band_columns(levels, preset):
     }
 
 
-def pin_columns(curves):
-    """Return the columns of a source that holds a level per band of each curve, NaN for those missing."""
-    missing = MOST_CURVES - len(curves)
-    levels = [curve.drawn for curve in curves] + [NO_LEVELS] * missing
-    columns = {f"pin_{place}": each for place, each in enumerate(levels)}
+def pin_columns(levels):
+    """Return the columns of a source that holds levels (21,) [dB] of each pin, NaN for those missing."""
+    missing = MOST_CURVES - len(levels)
+    columns = {f"pin_{place}": each for place, each in enumerate([*levels, *[NO_LEVELS] * missing])}
     return {"label": list(tig.BAND_LABELS), "centre": tig.BAND_CENTRES, **columns}
 
 

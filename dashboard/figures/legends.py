@@ -1,6 +1,7 @@
 """Legends, and the lines of pinned designs that they list."""
 
 import math
+import operator
 
 from bokeh.core.properties import value
 from bokeh.models import (
@@ -67,16 +68,22 @@ class PinnedLines:
     def _glyph(self, column):
         return Line(x=self._x, y=column, line_width=theme.PINNED_LINE_WIDTH, line_alpha=1)
 
-    def show(self, curves):
-        """Give as many lines as there are curves their names, colours and dashes, and hide the rest."""
-        missing = len(curves) - len(self.lines)
+    def show(self, pinned):
+        """Give as many lines as there are pinned designs their names, colours and dashes; hide the rest.
+
+        Parameters
+        ----------
+        pinned : sequence of DesignResult
+            The designs that are drawn.
+        """
+        missing = len(pinned) - len(self.lines)
         if missing > 0:
             self._make(missing)
-        for line, entry, curve in zip(self.lines, self.entries, curves, strict=False):
-            line.glyph.update(line_color=curve.colour, line_dash=list(curve.dash))
-            entry.label = value(formats.name_text(curve.name, theme.LEGEND_NAME))
+        for line, entry, each in zip(self.lines, self.entries, pinned, strict=False):
+            line.glyph.update(line_color=each.colour, line_dash=list(each.dash))
+            entry.label = value(formats.name_text(each.name, theme.LEGEND_NAME))
         for place, line in enumerate(self.lines):
-            line.visible = place < len(curves)
+            line.visible = place < len(pinned)
 
     @property
     def shown_entries(self):
@@ -84,8 +91,13 @@ class PinnedLines:
         return [entry for entry, line in zip(self.entries, self.lines, strict=True) if line.visible]
 
 
-MOST_CURVES = len(theme.DESIGN_COLOURS)
-"""Pinned designs that a figure can draw: one for each colour."""
+MOST_CURVES = theme.MOST_PINNED
+"""Pinned designs that a figure can draw."""
+
+
+def are_the_same(some, others):
+    """Return whether two sequences hold the same objects in the same order: then nothing is to be sent."""
+    return len(some) == len(others) and all(map(operator.is_, some, others))
 
 
 def new_legend(plot, location):

@@ -1,9 +1,8 @@
 """Curves as CSV files, for spreadsheets and scripts.
 
 Insertion gain: dB per band [Hz]. Force into the ground: kN over time [s]; each design has a time of its
-own, since each run has a step of its own. Comma-separated, decimal points.
-
-The one rule: numbers are those of the solution, not those that fit a screen.
+own, since each run has a step of its own. Comma-separated, decimal points. Numbers are those of the
+solution, not those that fit a screen.
 """
 
 import csv
@@ -14,32 +13,32 @@ import re
 import trackig_core as tig
 
 
-def gain_csv(assessed):
+def gain_csv(results):
     """Return insertion gain per band as CSV.
 
     Parameters
     ----------
-    assessed : iterable of Assessed
-        The designs.
+    results : iterable of DesignResult
+        Designs with a solution.
 
     Returns
     -------
     str
         A column of bands, ``frequency_hz``, and a column per design, ``insertion_gain_db`` and its name.
     """
-    assessed = list(assessed)
-    header = ["frequency_hz", *(f"insertion_gain_db {each.name}" for each in assessed)]
-    columns = [tig.BAND_LABELS, *(map(float, each.levels) for each in assessed)]
+    results = list(results)
+    header = ["frequency_hz", *(f"insertion_gain_db {each.name}" for each in results)]
+    columns = [tig.BAND_LABELS, *(map(float, each.levels) for each in results)]
     return _written(header, zip(*columns, strict=True))
 
 
-def force_csv(assessed):
+def force_csv(results):
     """Return the force into the ground over time as CSV.
 
     Parameters
     ----------
-    assessed : iterable of Assessed
-        The designs.
+    results : iterable of DesignResult
+        Designs with a solution.
 
     Returns
     -------
@@ -49,7 +48,7 @@ def force_csv(assessed):
         records end in empty cells.
     """
     header, columns = [], []
-    for each in assessed:
+    for each in results:
         summary = each.summary
         if summary.time is None:
             continue

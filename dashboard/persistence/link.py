@@ -3,9 +3,8 @@
 All of a design is written, defaults too, so that a link reopens the same design in versions whose
 defaults are others. Numbers have six significant figures, as inputs have, in display units.
 
-The one rule: a link is hostile. Whatever it holds, decoding raises nothing and gives a design that the
-sliders can show; what was ignored or clamped is told in words that repeat nothing but numbers and the
-letters of a key.
+A link is hostile: whatever it holds, decoding raises nothing and gives designs that the sliders can show;
+what was ignored or clamped is said in words that repeat nothing but numbers and the letters of a key.
 """
 
 import math
@@ -13,11 +12,12 @@ import re
 from dataclasses import dataclass
 from urllib.parse import urlencode
 
-from dashboard.fields import INPUTS, NUMBERS, six_figures
+import trackig_core as tig
+from dashboard.fields import INPUTS, NUMBERS, OPENING_PRESET, six_figures
 from dashboard.formats import name_text, quantity_text
-from dashboard.session.inputs import DesignInputs, GainDefinition, preset_values
-from dashboard.session.pins import MOST, Pin, free_colour, free_name
-from dashboard.theme import DESIGN_COLOURS
+from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
+from dashboard.session.pins import free_colour, free_name
+from dashboard.theme import MOST_PINNED
 from trackig_core.names import LONGEST_NAME
 
 VERSION = "1"
@@ -27,7 +27,7 @@ LONGEST_NUMBER, LONGEST_VALUE, LONGEST_KEY = 32, 800, 24
 """Characters that are read of a number, bytes of any value, and characters that are shown of a key."""
 
 MOST_PROBLEMS = 6
-"""Problems of a link that are told one by one."""
+"""Problems of a link that are named one by one."""
 
 SEPARATOR = "~"
 """Stands between the parts of a pin; the name comes last, so that it may hold it."""
@@ -58,8 +58,8 @@ class Link:
         All inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
     view : dict
         Choices of view that the link makes, by key.
-    pins : tuple of Pin
-        Pinned designs, of different names and colours; their keys count from 0.
+    pins : tuple of trackig_core.PinnedDesign
+        Pinned designs, of different names and colours.
     base : int or None
         Number of the pin from which differences are taken, counted from 0.
     problems : tuple of str
@@ -68,7 +68,7 @@ class Link:
 
     values: dict
     view: dict
-    pins: tuple[Pin, ...]
+    pins: tuple[tig.PinnedDesign, ...]
     base: int | None
     problems: tuple[str, ...]
 
@@ -82,8 +82,8 @@ def encode(values, view=None, pins=(), base=None):
         All inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
     view : mapping, optional
         Choices of view by key, such as those of :data:`VIEW_CHOICES`.
-    pins : iterable of Pin
-        Up to eight pinned designs.
+    pins : iterable of trackig_core.PinnedDesign
+        Pinned designs that sliders can show.
     base : int, optional
         Number of the pin from which differences are taken, counted from 0.
 
@@ -106,8 +106,11 @@ def _text(value):
 
 
 def _pin_text(pin):
-    values = (_text(pin.values[name]) for name in INPUTS)
-    return SEPARATOR.join((str(pin.colour), str(int(pin.shown)), *values, pin.name))
+    # the format has a place for every input: those that a single-stage track lacks are as its preset opens
+    preset = pin.preset or OPENING_PRESET
+    values = preset_values(preset) | values_of(pin.design)
+    texts = (_text(values[name]) for name in INPUTS)
+    return SEPARATOR.join((str(pin.colour), str(int(pin.shown)), *texts, pin.name))
 
 
 def decode(arguments, view_choices=VIEW_CHOICES):
@@ -142,7 +145,7 @@ def decode(arguments, view_choices=VIEW_CHOICES):
     }
     pins, numbers = _pins(arguments.get("pin", ()), problems)
     base = _base(given.get("base"), numbers, problems)
-    return Link(values, view, pins, base, _told(problems))
+    return Link(values, view, pins, base, _some_of(problems))
 
 
 def _key_text(key):
@@ -221,9 +224,9 @@ def _number(name, text, otherwise, whose, problems):
 def _pins(raws, problems):
     """Return the pins, and the numbers that they had in the link, counted from 1."""
     pins, numbers = [], []
-    if len(raws) > MOST:
-        problems.append(f"The link has {len(raws)} pinned designs; {MOST} were taken.")
-    for number, raw in enumerate(raws[:MOST], start=1):
+    if len(raws) > MOST_PINNED:
+        problems.append(f"The link has {len(raws)} pinned designs; {MOST_PINNED} were taken.")
+    for number, raw in enumerate(raws[:MOST_PINNED], start=1):
         pin = _pin(_decoded(raw), pins, f"Pin {number}: ", problems)
         if pin is not None:
             pins.append(pin)
@@ -240,13 +243,14 @@ def _pin(text, before, whose, problems):
         return None
     colour, shown, *_, name = parts
     taken = {pin.colour for pin in before}
-    free = {str(index): index for index in range(len(DESIGN_COLOURS)) if index not in taken}
-    return Pin(
-        key=len(before),
+    free = {str(index): index for index in range(MOST_PINNED) if index not in taken}
+    values = _values(given, whose, problems)
+    return tig.PinnedDesign(
         name=free_name(name_text(name, LONGEST_NAME), before),
+        design=design_of(values),
         colour=free.get(colour, free_colour(before)),
-        values=_values(given, whose, problems),
         shown=shown != "0",
+        preset=values["preset"],
     )
 
 
@@ -261,7 +265,7 @@ def _base(text, numbers, problems):
     return found[0]
 
 
-def _told(problems):
+def _some_of(problems):
     """Return so many problems as a user reads, and how many more there are."""
     more = len(problems) - MOST_PROBLEMS
     return (*problems[:MOST_PROBLEMS], *([f"And {more} more of the kind."] if more > 0 else []))

@@ -1,6 +1,6 @@
 """All that a session holds, as a link and as a study, and back.
 
-The one rule: what is opened is checked as a whole before anything changes, and then replaces everything.
+What is opened is checked as a whole before anything changes, and then replaces everything.
 """
 
 import param
@@ -15,9 +15,9 @@ class SessionSnapshot(param.Parameterized):
     Parameters
     ----------
     inputs : DesignInputs
-        The design at hand.
+        The current design.
     definition : GainDefinition
-        How insertion gain is reckoned.
+        Which insertion gain is shown.
     pins : Pins
         The pinned designs.
     assessment : Assessment

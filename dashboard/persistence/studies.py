@@ -3,17 +3,18 @@
 A study may hold more than sliders show: rails of one's own, springs as measured, numbers beyond a slider or
 of more figures. Numbers of sliders are in display units, those of a study in SI units.
 
-The one rule: nothing is rounded, clamped or dropped. A study that sliders cannot show exactly is refused as
-a whole, in words that name the design, the value and what sliders take; and what was saved opens as it was.
+Nothing is rounded, clamped or dropped. A study that sliders cannot show exactly is refused as a whole, in
+words that name the design, the value and what sliders take; and what was saved opens as it was.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import trackig_core as tig
 from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
 from dashboard.formats import quantity_text
-from dashboard.session.inputs import DesignInputs, design_of, display_values, preset_values
-from dashboard.session.pins import MOST, THIS_DESIGN, Pin, distinct_colours
+from dashboard.session.inputs import DesignInputs, design_of, preset_values, values_of
+from dashboard.session.pins import current_design, distinct_colours
+from dashboard.theme import MOST_PINNED
 
 
 @dataclass(frozen=True)
@@ -24,8 +25,8 @@ class Opened:
     ----------
     values : dict
         All inputs, by name of :data:`dashboard.fields.INPUTS` [display units], as DesignInputs takes them.
-    pins : tuple of Pin
-        Pinned designs, of different names and colours, in their order; their keys count from 0.
+    pins : tuple of trackig_core.PinnedDesign
+        Pinned designs, of different names and colours, each with a preset, in their order.
     base : int or None
         Number of the pin from which differences are taken, counted from 0, as Pins takes it.
     view : dict
@@ -39,7 +40,7 @@ class Opened:
     """
 
     values: dict
-    pins: tuple[Pin, ...]
+    pins: tuple[tig.PinnedDesign, ...]
     base: int | None
     view: dict
     specification: tig.Specification | None
@@ -56,8 +57,8 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         All inputs, by name of :data:`dashboard.fields.INPUTS`, as DesignInputs gives them [display units].
     view : mapping, optional
         ``summation`` and ``reference``; what is missing is as in the paper.
-    pins : iterable of Pin
-        Up to eight pinned designs.
+    pins : iterable of trackig_core.PinnedDesign
+        Pinned designs.
     base : int, optional
         Number of the pin from which differences are taken, counted from 0.
     specification : trackig_core.Specification, optional
@@ -81,10 +82,7 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
     """
     return tig.Study(
         design=design_of(values),
-        pinned=[
-            tig.PinnedDesign(pin.name, pin.design, pin.colour, pin.shown, pin.values["preset"])
-            for pin in pins
-        ],
+        pinned=pins,
         specification=specification,
         source=source,
         view=tig.View(**(view or {}), base=base),
@@ -112,21 +110,14 @@ def from_study(study):
     trackig_core.StudyError
         If sliders cannot show one of the designs, or two pinned designs have one name.
     """
-    if len(study.pinned) > MOST:
-        raise tig.StudyError(f"{len(study.pinned)} designs: the page shows at most {MOST}", "pinned")
-    values = _values(study.design, study.preset, THIS_DESIGN, "design")
-    pins = []
-    for number, (each, colour) in enumerate(
-        zip(study.pinned, distinct_colours(pinned.colour for pinned in study.pinned), strict=True)
-    ):
-        path = f"pinned[{number}]"
-        if any(each.name == pin.name for pin in pins):
-            raise tig.StudyError(f"two designs are called “{each.name}”; give each its own", f"{path}.name")
-        own = _values(each.design, each.preset, f"“{each.name}”", f"{path}.design")
-        pins.append(Pin(number, each.name, colour, own, each.shown))
+    if len(study.pinned) > MOST_PINNED:
+        raise tig.StudyError(f"{len(study.pinned)} designs: the page shows at most {MOST_PINNED}", "pinned")
+    current = current_design(study.design, study.preset)
+    _check(current.design, current.name, "design")
+    preset = _preset(current)
     return Opened(
-        values=values,
-        pins=tuple(pins),
+        values=preset_values(preset) | values_of(study.design, preset),
+        pins=_pins(study.pinned),
         base=study.view.base,
         view={"summation": study.view.summation, "reference": study.view.reference},
         specification=study.specification,
@@ -135,21 +126,37 @@ def from_study(study):
     )
 
 
-def _values(design, preset, whose, path):
-    """Return the inputs that give a design, or raise a StudyError that names it and the path to it."""
+def _pins(pinned):
+    """Return pinned designs as they are shown here, or raise a StudyError that names one and its path."""
+    colours = distinct_colours(each.colour for each in pinned)
+    for number, each in enumerate(pinned):
+        path = f"pinned[{number}]"
+        if any(each.name == other.name for other in pinned[:number]):
+            raise tig.StudyError(f"two designs are called “{each.name}”; give each its own", f"{path}.name")
+        _check(each.design, f"“{each.name}”", f"{path}.design")
+    return tuple(
+        replace(each, colour=colour, preset=_preset(each))
+        for each, colour in zip(pinned, colours, strict=True)
+    )
+
+
+def _preset(pinned):
+    """Return the preset from which a design departs: the one that it says, that it is, or the opening one."""
+    same = (key for key, published in tig.PRESETS.items() if published == pinned.design)
+    return pinned.preset or next(same, OPENING_PRESET)
+
+
+def _check(design, whose, path):
+    """Raise a StudyError that names a design and the path to it unless sliders show it exactly."""
     if design.rail not in tig.RAILS.values():
         known = ", ".join(tig.RAILS)
         raise _refused(whose, path, "rail", f"{design.rail.name!r}, of its own values", known)
     for field in NUMBERS:
         if design.two_stage or field not in SECOND_STAGE:
-            _check(design, field, whose, path)
-    if preset is None:
-        same = (key for key, published in tig.PRESETS.items() if published == design)
-        preset = next(same, OPENING_PRESET)
-    return {**preset_values(preset), **display_values(design)}
+            _check_number(design, field, whose, path)
 
 
-def _check(design, field, whose, path):
+def _check_number(design, field, whose, path):
     """Raise a StudyError unless a slider shows a number of a design exactly."""
     value, (low, high) = getattr(design, field), DesignInputs.param[field].bounds
     takes = f"one number from {quantity_text(low)} to {quantity_text(high)}"

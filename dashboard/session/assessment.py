@@ -1,125 +1,116 @@
-"""What the designs of a workshop are held against: a specification, and a source.
+"""The current design and the pinned ones, with what was computed of them, for all views.
 
-dB, Hz. Every design that is on the table, the one at hand and each pinned one, is assessed as soon as its
-picture is there, with the insertion gain that the page shows.
-
-The one rule: a design is assessed by its last good picture, or not at all; nothing here solves.
+Every design is compared with the specification, and the source with its track is computed, by the
+insertion gain that the page shows. dB, Hz. Nothing here solves.
 """
 
-from dataclasses import dataclass
+import dataclasses
+import operator
 
-import numpy as np
 import param
 
 import trackig_core as tig
-from dashboard import theme
-from dashboard.session.pins import THIS_DESIGN
-from dashboard.session.results import SolutionSummary
-
-
-@dataclass(frozen=True, eq=False)
-class Assessed:
-    """One design, and what became of it.
-
-    Attributes
-    ----------
-    key : int or None
-        Key of its pin; None: the design at hand.
-    name : str
-        What it is called.
-    colour : str
-        Colour of its curves.
-    dash : tuple of float
-        Dash of its curves; empty if solid.
-    shown : bool
-        Whether it is drawn.
-    summary : SolutionSummary
-        Its last good picture.
-    levels : numpy.ndarray (21,)
-        Its insertion gain [dB].
-    verdict : trackig_core.Verdict or None
-        How it fares against the specification; None without one.
-    level : trackig_core.TrackLevel or None
-        What the source becomes with it; None without a source.
-    """
-
-    key: int | None
-    name: str
-    colour: str
-    dash: tuple[float, ...]
-    shown: bool
-    summary: SolutionSummary
-    levels: np.ndarray
-    verdict: tig.Verdict | None
-    level: tig.TrackLevel | None
+from dashboard.session.pins import current_design, preset_design
+from dashboard.session.results import DesignResult
 
 
 class Assessment(param.Parameterized):
-    """Specification, source and the designs that are held against them.
+    """Specification, source, and the results of all designs.
+
+    A result whose design, solution, definition, specification and source are those of before is the same
+    object as before: a frame of a drag computes the current design alone, and a figure can tell by identity
+    what it need not draw again.
 
     Parameters
     ----------
+    inputs : DesignInputs
+        The current design, as long as it was never solved.
     outcome : Outcome
-        Picture of the design at hand.
+        Solution of the current design, and of the preset from which it departs.
     definition : GainDefinition
-        How insertion gain is reckoned.
+        Which insertion gain is shown.
     pins : Pins
         The pinned designs.
     pinned : PinnedSummaries
-        Their pictures, by key.
-    curves : PinnedCurves
-        Their insertion gain, by key.
+        Their solutions, by key.
     """
 
     specification = param.ClassSelector(class_=tig.Specification, default=None, allow_None=True)
     source = param.ClassSelector(class_=tig.SourceSpectrum, default=None, allow_None=True)
     title = param.String(default=tig.Study.name, doc="What the study is called.")
-    assessed = param.Parameter(default=(), doc="A tuple of Assessed, the design at hand first.")
+    results = param.Parameter(
+        default=(), doc="A tuple of DesignResult: the current design, then every pinned one."
+    )
+    base = param.Parameter(default=None, doc="The DesignResult from which differences are taken.")
+    preset = param.Parameter(
+        default=None, doc="DesignResult of the preset from which the current design departs, if it does."
+    )
 
-    def __init__(self, outcome, definition, pins, pinned, curves):
+    def __init__(self, inputs, outcome, definition, pins, pinned):
         super().__init__()
-        self._outcome, self._definition = outcome, definition
-        self._pins, self._pinned, self._curves = pins, pinned, curves
-        outcome.param.watch(self._assess, "summary")
+        self._inputs, self._outcome, self._definition = inputs, outcome, definition
+        self._pins, self._pinned = pins, pinned
+        outcome.param.watch(self._assess, ["summary", "preset_summary"])
         definition.param.watch(self._assess, ["summation", "reference"])
         pins.param.watch(self._assess, ["pinned", "base"])
-        curves.param.watch(self._assess, "levels")
+        pinned.param.watch(self._assess, "summaries")
         self.param.watch(self._assess, ["specification", "source"])
+        self._criteria = None
         self._assess()
 
     @property
-    def shown(self):
-        """Those that are drawn, a tuple of Assessed; the design at hand is the first."""
-        return tuple(each for each in self.assessed if each.shown)
+    def current(self):
+        """The result of the current design; its summary is None as long as it was never solved."""
+        return self.results[0]
 
     @property
-    def base(self):
-        """The design from which differences are taken (Assessed), or None while it has no picture."""
-        return next((each for each in self.assessed if each.key == self._pins.base), None)
+    def shown(self):
+        """Those that are solved and drawn, a tuple of DesignResult; the current design is the first."""
+        return tuple(each for each in self.results if each.shown and each.summary is not None)
+
+    @property
+    def shown_pins(self):
+        """The pinned ones among :attr:`shown`."""
+        return tuple(each for each in self.shown if each.key is not None)
 
     def _assess(self, *_):
-        self.assessed = tuple(self._assessments())
+        criteria = (self._definition.reference, self._definition.summation, self.specification, self.source)
+        known = {each.key: each for each in self.results} if criteria == self._criteria else {}
+        known_preset = self.preset if criteria == self._criteria else None
+        self._criteria = criteria
+        results = tuple(
+            self._result(record, summary, known.get(record.key)) for record, summary in self._designs()
+        )
+        if len(results) == len(self.results) and all(map(operator.is_, results, self.results)):
+            results = self.results
+        base = next(each for each in results if each.key == self._pins.base)
+        now = {"results": results, "base": base, "preset": self._preset_result(known_preset)}
+        self.param.update({name: each for name, each in now.items() if each is not getattr(self, name)})
 
-    def _assessments(self):
-        summary, levels = self._outcome.summary, self._curves.levels
-        if summary is not None:
-            gain = self._definition.levels(summary.solution)
-            yield self._assessment(None, THIS_DESIGN, theme.THIS_DESIGN, (), True, summary, gain)
-        for pin in self._pins.pinned:
-            if pin.key in levels:
-                summary = self._pinned.summaries[pin.key]
-                look = (pin.key, pin.name, pin.colour_code, pin.dash, pin.shown)
-                yield self._assessment(*look, summary, levels[pin.key])
+    def _designs(self):
+        """Return each design as a record, and its last good solution or None."""
+        summary = self._outcome.summary
+        design = self._inputs.to_design() if summary is None else summary.design
+        return [
+            (current_design(design), summary),
+            *((pin, self._pinned.summaries.get(pin.key)) for pin in self._pins.pinned),
+        ]
 
-    def _assessment(self, key, name, colour, dash, shown, summary, levels):
-        return Assessed(
-            key=key,
-            name=name,
-            colour=colour,
-            dash=dash,
-            shown=shown,
+    def _preset_result(self, known):
+        summary = self._outcome.preset_summary
+        return None if summary is None else self._result(preset_design(summary.design), summary, known)
+
+    def _result(self, record, summary, known):
+        """Return the result of a design; what is known of it by the same criteria is used again."""
+        if known is not None and known.summary is summary:
+            return known if known.pinned == record else dataclasses.replace(known, pinned=record)
+        if summary is None:
+            return DesignResult(record)
+        gain = self._definition.gain(summary.solution)
+        return DesignResult(
+            pinned=record,
             summary=summary,
-            levels=levels,
-            verdict=None if self.specification is None else self.specification.check(levels),
-            level=None if self.source is None else self.source.with_track(levels),
+            gain=gain,
+            verdict=None if self.specification is None else self.specification.check(gain.levels),
+            level=None if self.source is None else self.source.with_track(gain.levels),
         )

@@ -1,8 +1,7 @@
-"""What the user sets and what came of it, as plain parameters.
+"""What the user sets, as plain parameters.
 
-:class:`DesignInputs` holds the design in display units (kN/mm, kg, m), :class:`Outcome` the last
-picture and how the solver fares. The one rule: units are converted here and nowhere else, and
-nothing here knows how it is shown.
+:class:`DesignInputs` holds the design in display units (kN/mm, kg, m), :class:`GainDefinition` which
+insertion gain is shown. Designs in SI units become display values here, and back.
 """
 
 import param
@@ -19,6 +18,7 @@ from dashboard.fields import (
     to_display,
     to_si,
 )
+from dashboard.session.results import gain_of
 
 
 def design_of(values):
@@ -65,6 +65,24 @@ def display_values(design):
         "rail": rail,
         **{name: to_display(name, value) for name, value in numbers.items() if value is not None},
     }
+
+
+def values_of(design, preset=None):
+    """Return what puts a design on the sliders: what :meth:`DesignInputs.take` takes.
+
+    Parameters
+    ----------
+    design : trackig_core.TrackDesign
+        A design that sliders can show.
+    preset : str, optional
+        Key of ``trackig_core.PRESETS`` from which it departs; without one the sliders keep theirs.
+
+    Returns
+    -------
+    dict
+        Values by name of :data:`INPUTS` [display units]; a single-stage design leaves the second stage out.
+    """
+    return display_values(design) | ({} if preset is None else {"preset": preset})
 
 
 def _number(name, low, high, step, label):
@@ -178,7 +196,7 @@ def check_values(values):
 
 
 class GainDefinition(param.Parameterized):
-    """How insertion gain is reckoned from a spectrum: a matter of looking, which needs no new solution."""
+    """Which insertion gain is computed from a spectrum: a matter of looking, which needs no new solution."""
 
     summation = param.Selector(
         default="energy",
@@ -191,15 +209,19 @@ class GainDefinition(param.Parameterized):
         label="Against",
     )
 
-    def levels(self, solution, spectrum=None):
-        """Return the insertion gain of a solution, as chosen.
+    def gain(self, solution):
+        """Return the insertion gain of a solution (trackig_core.InsertionGain), computed once."""
+        return gain_of(solution, self.reference, self.summation)
+
+    def levels_of(self, spectrum, solution):
+        """Return the insertion gain of another spectrum of the design that was solved.
 
         Parameters
         ----------
+        spectrum : trackig_core.ForceSpectrum
+            The spectrum, such as that of the frequency-domain solution.
         solution : trackig_core.Solution
-            The solution.
-        spectrum : trackig_core.ForceSpectrum, optional
-            Another spectrum of the same design, in place of the solution's own.
+            A solution of the same design.
 
         Returns
         -------
@@ -207,7 +229,7 @@ class GainDefinition(param.Parameterized):
             Insertion gain [dB].
         """
         return tig.insertion_gain(
-            solution.spectrum if spectrum is None else spectrum,
+            spectrum,
             solution.design,
             solution.natural_frequencies.loaded_track,
             reference=self.reference,

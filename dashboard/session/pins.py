@@ -1,30 +1,32 @@
-"""Designs that are kept beside the one at hand, to be compared with it.
+"""Designs that are kept beside the current one, to be compared with it.
 
-A pin holds what the user had set, in display units, so that it can be solved and put back. The one
-rule: pins never change, the tuple of them does, as a whole; so whoever watches it sees each change once.
+Pins never change, the tuple of them does, as a whole; so whoever watches it sees each change once.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from types import MappingProxyType
+from dataclasses import replace
 
 import param
 
 import trackig_core as tig
-from dashboard import theme
 from dashboard.fields import PRESET_LABELS
-from dashboard.session.inputs import check_values, design_of, preset_values
+from dashboard.theme import MOST_PINNED
 from trackig_core.names import LONGEST_NAME, allowed, brief, is_name
-
-MOST = theme.MOST_PINNED
 
 THIS_DESIGN = "This design"
 """What the current design is called beside those that are pinned."""
+
+PUBLISHED = "As in Table 1"
+"""What the preset is called beside the design that departs from it."""
 
 
 def current_design(design, preset=None):
     """Return the current design as a record like those that are pinned (trackig_core.PinnedDesign)."""
     return tig.PinnedDesign(THIS_DESIGN, design, colour=None, preset=preset)
+
+
+def preset_design(design):
+    """Return the preset from which the current design departs as such a record."""
+    return tig.PinnedDesign(PUBLISHED, design, colour=None)
 
 
 def shown_designs(study):
@@ -42,74 +44,18 @@ class PinError(ValueError):
     """What was asked of the pins cannot be done; the message says why, and what can."""
 
 
-@dataclass(frozen=True)
-class Pin:
-    """A design as it was when it was pinned.
-
-    Parameters
-    ----------
-    key : int
-        Tells the pin from all others of its session, renamed or recoloured as it may be.
-    name : str
-        What it is called; :func:`trackig_core.names.is_name` says what may be a name.
-    colour : int
-        Index of its colour and its dash in :data:`dashboard.theme.DESIGN_COLOURS`.
-    values : mapping
-        The inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
-    shown : bool
-        Whether it is drawn.
-
-    Raises
-    ------
-    PinError
-        If the name or the colour is not allowed.
-    ValueError
-        If inputs cannot hold the values.
-    """
-
-    key: int
-    name: str
-    colour: int
-    values: Mapping
-    shown: bool = True
-
-    def __post_init__(self):
-        """Check every value once, and keep the values from being changed."""
-        if not is_name(self.name):
-            raise PinError(f"{brief(self.name)} is no name: give {allowed()}.")
-        if self.colour not in range(MOST):
-            raise PinError(f"There is no colour {self.colour}: give 0 to {MOST - 1}.")
-        check_values(self.values)
-        object.__setattr__(self, "values", MappingProxyType(dict(self.values)))
-
-    @property
-    def design(self):
-        """The design in SI units, to be solved."""
-        return design_of(self.values)
-
-    @property
-    def colour_code(self):
-        """Its colour in every plot."""
-        return theme.DESIGN_COLOURS[self.colour]
-
-    @property
-    def dash(self):
-        """Its dash in every plot, for readers who do not tell the colours apart."""
-        return theme.DESIGN_DASHES[self.colour]
-
-
 class Pins(param.Parameterized):
     """The pinned designs, up to eight, in the order in which they were pinned."""
 
-    pinned = param.Parameter(default=(), doc="The pins, a tuple.")
+    pinned = param.Parameter(default=(), doc="A tuple of trackig_core.PinnedDesign, each with a key.")
     base = param.Integer(
         default=None,
         allow_None=True,
-        doc="Key of the pin from which differences are taken; None: the design at hand.",
+        doc="Key of the pin from which differences are taken; None: the current design.",
     )
 
     alone = param.Boolean(
-        default=False, doc="Whether insertion gain is drawn of the pins alone, not of the design at hand."
+        default=False, doc="Whether insertion gain is drawn of the pins alone, not of the current design."
     )
 
     _latest_key = 0
@@ -132,19 +78,21 @@ class Pins(param.Parameterized):
         """The pins that are drawn, a tuple."""
         return tuple(pin for pin in self.pinned if pin.shown)
 
-    def add(self, values, name=""):
+    def add(self, design, name="", preset=None):
         """Pin a design.
 
         Parameters
         ----------
-        values : mapping
-            The inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
+        design : trackig_core.TrackDesign
+            The design.
         name : str
             What to call it; a number is added if another pin is called so. Empty: a name is found.
+        preset : str, optional
+            Key of ``trackig_core.PRESETS`` from which it departs, if from any.
 
         Returns
         -------
-        Pin
+        trackig_core.PinnedDesign
             The new pin, in the first colour that no other has.
 
         Raises
@@ -152,14 +100,14 @@ class Pins(param.Parameterized):
         PinError
             If eight designs are pinned, or the name is not allowed.
         """
-        return self.add_all([(values, name)])[0]
+        return self.add_all([(design, name, preset)])[0]
 
     def add_table_1(self):
         """Pin those of the paper's four tracks that are not pinned as published, as one change.
 
         Returns
         -------
-        tuple of Pin
+        tuple of trackig_core.PinnedDesign
             The new pins.
 
         Raises
@@ -168,8 +116,8 @@ class Pins(param.Parameterized):
             If there is no room for them; then none was pinned.
         """
         there = [pin.design for pin in self.pinned]
-        missing = [key for key, design in tig.PRESETS.items() if design not in there]
-        return self.add_all((preset_values(key), PRESET_LABELS[key]) for key in missing)
+        missing = {key: design for key, design in tig.PRESETS.items() if design not in there}
+        return self.add_all((design, PRESET_LABELS[key], key) for key, design in missing.items())
 
     def show_table_1(self):
         """Draw the paper's four tracks and nothing else, pinning those that are missing: its Figure 2.
@@ -190,12 +138,12 @@ class Pins(param.Parameterized):
 
         Parameters
         ----------
-        designs : iterable of (mapping, str)
-            Values and name of each, as :meth:`add` takes them.
+        designs : iterable of (TrackDesign, str, str or None)
+            Design, name and preset of each, as :meth:`add` takes them.
 
         Returns
         -------
-        tuple of Pin
+        tuple of trackig_core.PinnedDesign
             The new pins.
 
         Raises
@@ -204,14 +152,16 @@ class Pins(param.Parameterized):
             If there is no room for all of them, or a name is not allowed; then none was pinned.
         """
         designs, pinned = list(designs), list(self.pinned)
-        if len(pinned) + len(designs) > MOST:
+        if len(pinned) + len(designs) > MOST_PINNED:
             raise PinError(
-                f"{len(pinned)} designs are pinned, and {MOST} can be: "
-                f"remove {len(pinned) + len(designs) - MOST} to pin {len(designs)} more."
+                f"{len(pinned)} designs are pinned, and {MOST_PINNED} can be: "
+                f"remove {len(pinned) + len(designs) - MOST_PINNED} to pin {len(designs)} more."
             )
-        for values, name in designs:
+        for design, name, preset in designs:
             self._latest_key += 1
-            pinned.append(Pin(self._latest_key, free_name(name, pinned), free_colour(pinned), values))
+            found = _checked_name(free_name(name, pinned))
+            colour = free_colour(pinned)
+            pinned.append(tig.PinnedDesign(found, design, colour, preset=preset, key=self._latest_key))
         if designs:
             self.pinned = tuple(pinned)
         return self.pinned[len(pinned) - len(designs) :]
@@ -227,7 +177,7 @@ class Pins(param.Parameterized):
         name = name.strip()
         if any(pin.name == name and pin.key != key for pin in self.pinned):
             raise PinError(f"Another pinned design is called “{name}”: give another name.")
-        self._change(key, name=name)
+        self._change(key, name=_checked_name(name))
 
     def recolour(self, key, colour):
         """Give a pin another colour; a pin that has it takes this one's in exchange.
@@ -237,6 +187,8 @@ class Pins(param.Parameterized):
         PinError
             If there is no such colour.
         """
+        if colour not in range(MOST_PINNED):
+            raise PinError(f"There is no colour {colour}: give 0 to {MOST_PINNED - 1}.")
         now = self[key]
         changed = {key: replace(now, colour=colour)}
         changed |= {
@@ -253,8 +205,8 @@ class Pins(param.Parameterized):
     def remove(self, key):
         """Pin a design no longer.
 
-        If it was the base of differences, the design at hand becomes it; if it was the last, the design at
-        hand is drawn again.
+        If it was the base of differences, the current design becomes it; if it was the last, the current
+        design is drawn again.
         """
         gone = self[key]
         with param.parameterized.batch_call_watchers(self):
@@ -265,7 +217,7 @@ class Pins(param.Parameterized):
                 self.alone = False
 
     def choose_base(self, key):
-        """Take differences from a pin, or from the design at hand if the key is None."""
+        """Take differences from a pin, or from the current design if the key is None."""
         self.base = None if key is None else self[key].key
 
     def replace_all(self, pins, base=None):
@@ -273,7 +225,7 @@ class Pins(param.Parameterized):
 
         Parameters
         ----------
-        pins : iterable of Pin
+        pins : iterable of trackig_core.PinnedDesign
             Up to eight; each gets a new key, so that nobody takes it for one that was there before.
         base : int, optional
             Number of the pin from which differences are taken, counted from 0.
@@ -284,8 +236,8 @@ class Pins(param.Parameterized):
             If there are more than eight, or two of one colour or one name; then nothing has changed.
         """
         pins = list(pins)
-        if len(pins) > MOST:
-            raise PinError(f"{len(pins)} designs are too many: {MOST} can be pinned.")
+        if len(pins) > MOST_PINNED:
+            raise PinError(f"{len(pins)} designs are too many: {MOST_PINNED} can be pinned.")
         for what in ("name", "colour"):
             if len({getattr(pin, what) for pin in pins}) < len(pins):
                 raise PinError(f"Two pinned designs have one {what}: give each its own.")
@@ -301,10 +253,17 @@ class Pins(param.Parameterized):
         self.pinned = tuple(changed if pin.key == key else pin for pin in self.pinned)
 
 
+def _checked_name(name):
+    """Return a name, or raise a PinError that says what may be one."""
+    if not is_name(name):
+        raise PinError(f"{brief(name)} is no name: give {allowed()}.")
+    return name
+
+
 def free_colour(pinned):
-    """Return the first colour that none of up to seven pins has."""
+    """Return the first colour that none of some pins has, fewer than there are colours."""
     taken = {pin.colour for pin in pinned}
-    return next(colour for colour in range(MOST) if colour not in taken)
+    return next(colour for colour in range(MOST_PINNED) if colour not in taken)
 
 
 def distinct_colours(wanted):
@@ -313,7 +272,8 @@ def distinct_colours(wanted):
     Parameters
     ----------
     wanted : iterable of int
-        Colour of each of up to eight designs, such as those of a file; several may want one.
+        Colour of each of some designs, such as those of a file, no more than there are colours; several may
+        want one.
 
     Returns
     -------
@@ -321,9 +281,9 @@ def distinct_colours(wanted):
         The first that wants a colour has it; the others get those that nobody wants.
     """
     wanted = list(wanted)
-    free = (colour for colour in range(MOST) if colour not in wanted)
+    free = (colour for colour in range(MOST_PINNED) if colour not in wanted)
     return tuple(
-        next(free) if colour in wanted[:count] or colour >= MOST else colour
+        next(free) if colour in wanted[:count] or colour >= MOST_PINNED else colour
         for count, colour in enumerate(wanted)
     )
 
@@ -333,5 +293,5 @@ def free_name(name, pinned):
     taken = {pin.name for pin in pinned}
     name = name.strip()
     stem = name[: LONGEST_NAME - 4] or "Design"
-    numbered = (f"{stem} {number}" for number in range(2 if name else 1, MOST + 3))
+    numbered = (f"{stem} {number}" for number in range(2 if name else 1, MOST_PINNED + 3))
     return name if name and name not in taken else next(each for each in numbered if each not in taken)

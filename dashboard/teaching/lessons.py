@@ -42,7 +42,7 @@ import param
 import trackig_core as tig
 from dashboard import assets
 from dashboard.fields import PHYSICAL
-from dashboard.session.inputs import DesignInputs
+from dashboard.session.inputs import DesignInputs, values_of
 from dashboard.teaching.quantities import QuantityError, read_claim, read_placeholder
 
 LARGEST_FILE = 32_768
@@ -265,10 +265,9 @@ def set_sliders(inputs, values):
     values : dict
         Values by name [display units].
     """
-    if "preset" in values:
-        inputs.preset = values["preset"]
-        inputs.revert()
-    inputs.param.update(**{name: value for name, value in values.items() if name != "preset"})
+    preset = values.get("preset")
+    published = {} if preset is None else values_of(tig.PRESETS[preset], preset)
+    inputs.take(published | values)
 
 
 def reveal(lesson):

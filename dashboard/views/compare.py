@@ -1,56 +1,48 @@
-"""The tab in which pinned designs and the one at hand are compared.
+"""The tab in which pinned designs and the current one are compared.
 
-The one rule: nothing is reckoned here while nobody looks.
+Nothing is drawn here while nobody looks.
 """
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.client.exchange import tell
+from dashboard.client.exchange import notify
 from dashboard.compute.document import NextTick
 from dashboard.figures.comparison import BaseDifferenceFigure
-from dashboard.session.inputs import display_values
 from dashboard.session.pins import PinError
-from dashboard.views.comparison_table import Column, table_html
+from dashboard.views.comparison_table import table_html
 from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption
 from dashboard.views.pin_list import PinList
+from dashboard.views.tab import Tab
 
 FEW_BANDS = ("16", "31.5", "63", "125", "250")
 """Bands that are listed at first: an octave apart [Hz]."""
 
 
-class Compare(Viewer):
+class Compare(Tab):
     """List of pins, difference from a base, and a table side by side.
 
     Parameters
     ----------
     inputs : DesignInputs
         Where a pin's values are put back.
-    outcome : Outcome
-        Whose picture is compared with the pins.
-    definition : GainDefinition
-        How insertion gain is reckoned.
     pins : Pins
         The pins.
-    pinned : PinnedSummaries
-        Their pictures.
-    curves : PinnedCurves
-        What is drawn of them.
+    assessment : Assessment
+        The results of all designs.
     on_figure_2 : callable
         Called when the paper's four tracks alone are to be seen in the plot of insertion gain.
     """
 
     title = "Compare"
+    link_name = "compare"
 
-    def __init__(self, inputs, outcome, definition, pins, pinned, curves, on_figure_2):
+    def __init__(self, inputs, pins, assessment, on_figure_2):
         super().__init__()
-        self._outcome, self._definition = outcome, definition
-        self._pins, self._pinned, self._curves = pins, pinned, curves
+        self._pins, self._assessment = pins, assessment
         self._on_figure_2 = on_figure_2
-        self._in_sight = False
         self.list = PinList(inputs, pins)
         self.table_1 = pmui.Button(label="Pin Table 1", icon="push_pin", on_click=self._pin_table_1, **BUTTON)
         self.figure_2 = pmui.Button(
@@ -69,31 +61,27 @@ class Compare(Viewer):
         )
         self.differences = BaseDifferenceFigure()
         self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[theme.TABLE_CSS], margin=0)
-        outcome.param.watch(self._show, "summary")
         self._show_later = NextTick(self._show)
         self.bands.param.watch(self._show_later, "value")
-        definition.param.watch(self._show_later, ["summation", "reference"])
-        curves.param.watch(self._show_later, ["levels", "gains"])
+        assessment.param.watch(self._show_later, ["results", "base"])
         pins.param.watch(self._offer_bases, ["pinned", "base"])
-        pins.param.watch(self._show_later, ["pinned", "base"])
         self._offer_bases()
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
-        self._in_sight = in_sight
+    def refresh(self):
+        """Show what has changed while nobody looked."""
         self._show_later()
 
     def _pin_table_1(self, _):
         try:
             self._pins.add_table_1()
         except PinError as problem:
-            tell("warning", str(problem))
+            notify("warning", str(problem))
 
     def _show_figure_2(self, _):
         try:
             self._pins.show_table_1()
         except PinError as problem:
-            tell("warning", str(problem))
+            notify("warning", str(problem))
         else:
             self._on_figure_2()
 
@@ -118,43 +106,18 @@ class Compare(Viewer):
         self._pins.choose_base(event.new or None)
 
     def _show(self, *_):
-        summary = self._outcome.summary
-        if not self._in_sight or summary is None:
+        assessment = self._assessment
+        if not self.in_sight or assessment.current.summary is None:
             return
-        levels, base_key = self._definition.levels(summary.solution), self._pins.base
-        columns = [self._current_column(summary, levels), *map(self._pin_column, self._pins.pinned)]
-        base = next(column for column in columns if column.key == base_key)
-        name = None if base_key is None else base.name
-        self.differences.show(
-            base.levels,
-            None if base_key is None else levels,
-            tuple(curve for curve in self._curves.gains if curve.name != name),
-        )
-        listed = {None, *(pin.key for pin in self._pins.shown)}
+        base = assessment.base
+        self.differences.show(base, [each for each in assessment.shown if each is not base])
         self.table.object = table_html(
-            [column for column in columns if column.key in listed or column is base],
+            [each for each in assessment.results if each.shown or each is base],
             base,
             [band for band, label in enumerate(tig.BAND_LABELS) if label in self.bands.value],
         )
 
-    def _current_column(self, summary, levels):
-        return Column(
-            None,
-            CURRENT_NAME,
-            display_values(summary.design),
-            summary.solution.natural_frequencies,
-            levels,
-            theme.THIS_DESIGN,
-            (),
-        )
-
-    def _pin_column(self, pin):
-        summary = self._pinned.summaries.get(pin.key)
-        natural = None if summary is None else summary.solution.natural_frequencies
-        levels = self._curves.levels.get(pin.key)
-        return Column(pin.key, pin.name, pin.values, natural, levels, pin.colour_code, pin.dash)
-
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         pinned = pmui.Paper(
             pmui.Row(

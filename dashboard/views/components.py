@@ -1,18 +1,26 @@
 """What several views are made of: panels, captions, panes, swatches."""
 
+from typing import ClassVar
+
 import panel as pn
 import panel_material_ui as pmui
 
 from dashboard import theme
 
 CURRENT_NAME = "this\N{NO-BREAK SPACE}design"
-"""What the design at hand is called; no pin can be called so, since names hold no such space."""
+"""What the current design is called; no pin can be called so, since names hold no such space."""
 
 CURRENT = 0
-"""Stands for the design at hand where keys of pins are chosen from, which count from 1."""
+"""Stands for the current design where keys of pins are chosen from, which count from 1."""
 
 PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": theme.PANEL}
 """What a panel of the page is made of."""
+
+
+class QuickSlider(pmui.FloatSlider):
+    """A slider that reports its moves at once, not after Panel's 50 ms; the runner drops what is too many."""
+
+    _priority_changes: ClassVar[list[str]] = ["value"]
 
 
 def caption(title, words):

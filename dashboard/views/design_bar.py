@@ -1,6 +1,6 @@
-"""The bar above the sliders: undo, redo, and pinning the design at hand under a name.
+"""The bar above the sliders: undo, redo, and pinning the current design under a name.
 
-The one rule: a step of the history is what a hand did in one go, whether it dragged, typed or chose.
+A step of the history is what a hand did in one go, whether it dragged, typed or chose.
 """
 
 import time
@@ -10,7 +10,7 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import theme
-from dashboard.client.exchange import tell
+from dashboard.client.exchange import notify
 from dashboard.fields import INPUTS, PRESET_LABELS
 from dashboard.session.history import History
 from dashboard.session.pins import PinError
@@ -18,16 +18,16 @@ from trackig_core.names import LONGEST_NAME
 
 
 class DesignBar(Viewer):
-    """Buttons that act on the design at hand as a whole.
+    """Buttons that act on the current design as a whole.
 
     Parameters
     ----------
     inputs : DesignInputs
-        The design at hand.
+        The current design.
     pins : Pins
         Where it is pinned.
     browser : Browser
-        Tells when keys ask for undo or redo.
+        Says when keys ask for undo or redo.
     clock : callable
         Any clock that does not go back [s].
     """
@@ -88,9 +88,9 @@ class DesignBar(Viewer):
         inputs = self._inputs
         usual = "" if inputs.modified else PRESET_LABELS[inputs.preset]
         try:
-            pin = self._pins.add(inputs.to_values(), self.name_box.value or usual)
+            pin = self._pins.add(inputs.to_design(), self.name_box.value or usual, inputs.preset)
         except PinError as problem:
-            tell("warning", str(problem))
+            notify("warning", str(problem))
             return
         self.name_box.value = ""
         if pn.state.notifications is not None:

@@ -1,11 +1,10 @@
 """The tab in which a track is explored: insertion gain, force over time, natural frequencies.
 
-The one rule: all three are redrawn together, from the same picture.
+All three are redrawn together, from the same solution.
 """
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import theme
 from dashboard.compute.document import NextTick
@@ -13,32 +12,33 @@ from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
 from dashboard.views.frequencies import Frequencies
+from dashboard.views.tab import Tab
 from dashboard.views.verdict import ShortVerdict
 
 
-class Explore(Viewer):
-    """Insertion gain, force and natural frequencies of the design at hand.
+class Explore(Tab):
+    """Insertion gain, force and natural frequencies of the current design.
 
     Parameters
     ----------
     outcome : Outcome
-        Whose picture is shown.
+        How the solver fares.
     definition : GainDefinition
-        How its insertion gain is reckoned.
+        Which insertion gain is shown.
     pins : Pins
-        Pinned designs, which are drawn behind it.
-    curves : PinnedCurves
-        What is drawn of them.
+        Whether the pinned designs are drawn alone.
     assessment : Assessment
-        Whose specification is drawn as a limit.
+        Results that are drawn, and the specification, which is drawn as a limit.
     """
 
     title = "Explore"
+    link_name = "explore"
 
-    def __init__(self, outcome, definition, pins, curves, assessment):
+    def __init__(self, outcome, definition, pins, assessment):
         super().__init__()
         self._outcome, self._definition = outcome, definition
-        self._pins, self._curves, self._assessment = pins, curves, assessment
+        self._pins, self._assessment = pins, assessment
+        self._drawn = None
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
@@ -62,48 +62,36 @@ class Explore(Viewer):
             )
             for parameter in (definition.param.summation, definition.param.reference)
         ]
-        outcome.param.watch(self._show, ["summary", "preset_summary"])
         outcome.param.watch(self._dim, ["problem", "progress"])
-        show_gain = NextTick(self._show_gain)
-        definition.param.watch(show_gain, ["reference", "summation"])
-        pins.param.watch(show_gain, "alone")
-        curves.param.watch(show_gain, "gains")
-        curves.param.watch(NextTick(self._show_forces), "forces")
-        assessment.param.watch(show_gain, "specification")
-        self._show_all()
+        show = NextTick(self._show)
+        # results follow the definition and the specification too
+        assessment.param.watch(show, ["results", "preset"])
+        pins.param.watch(show, "alone")
+        self._show()
+        self._dim()
 
-    def _show(self, *events):
-        if any(event.name == "summary" for event in events):
-            self._show_all()
-        else:
-            self._show_gain()
-
-    def _show_all(self):
-        self._show_forces()
+    def _show(self):
+        results = self._assessment.results
+        self.insertion_gain.name_axis(gain_axis(self._definition))
+        if self._assessment.current.summary is None:
+            return
+        if results is not self._drawn:
+            self._drawn = results
+            self._show_forces()
         self._show_gain()
 
     def _show_forces(self):
-        summary = self._outcome.summary
-        if summary is not None:
-            self.force.show(summary, self._curves.forces)
-            self._name_fidelity(summary.solution.fidelity)
-
-    def _name_fidelity(self, fidelity):
-        words, variant = FIDELITY_CHIPS[fidelity]
+        current = self._assessment.current
+        self.force.show(current, self._assessment.shown_pins)
+        words, variant = FIDELITY_CHIPS[current.summary.solution.fidelity]
         self.fidelity.param.update(label=words, variant=variant, visible=True)
 
     def _show_gain(self):
-        chosen = self._definition
-        self.insertion_gain.name_axis(gain_axis(chosen))
-        summary, preset = self._outcome.summary, self._outcome.preset_summary
         specification = self._assessment.specification
-        if summary is None:
-            return
         self.insertion_gain.show(
-            chosen.levels(summary.solution),
-            None if preset is None else chosen.levels(preset.solution),
-            summary.solution.natural_frequencies,
-            curves=self._curves.gains,
+            self._assessment.current,
+            self._assessment.shown_pins,
+            preset=self._assessment.preset,
             limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
         )
@@ -112,7 +100,7 @@ class Explore(Viewer):
         for pane in (*self.panes, self.frequencies.pane):
             pane.styles = theme.STALE if self._outcome.stale else theme.FRESH
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         gain_pane, force_pane = self.panes
         gain = pmui.Paper(

@@ -8,17 +8,17 @@ from functools import partial
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard.views.lessons import Lessons
 from dashboard.views.motion import Motion
 from dashboard.views.subjects import Damping, Definitions, LumpedVsBeam, Resonances, Slopes
+from dashboard.views.tab import Tab
 
 EXPLAINING = (Motion, Resonances, Slopes, Damping, Definitions, LumpedVsBeam)
 """Subjects beside the lessons, in the order of the menu."""
 
 
-class Learn(Viewer):
+class Learn(Tab):
     """Lessons, and the subjects behind them.
 
     Parameters
@@ -32,6 +32,7 @@ class Learn(Viewer):
     """
 
     title = "Learn"
+    link_name = "learn"
 
     def __init__(self, inputs, outcome, definition):
         super().__init__()
@@ -40,7 +41,6 @@ class Learn(Viewer):
             **{kind.title: partial(kind, outcome, definition) for kind in EXPLAINING},
         }
         self._made = {}
-        self._looked_at = False
         self._places = {title: pn.Column(sizing_mode="stretch_width", margin=0) for title in self._makers}
         self.menu = pmui.Tabs(*self._places.items(), sizing_mode="stretch_width", margin=(0, 8, 8, 8))
         self.menu.param.watch(self._turn, "active")
@@ -55,13 +55,12 @@ class Learn(Viewer):
             made.question.param.watch(partial(self._put, self._places[title], made), "answered")
         return self._made[title]
 
-    def look(self, looked_at):
-        """Be told whether anybody looks at this tab."""
-        self._looked_at = looked_at
+    def refresh(self):
+        """Have the subject's question answered while the tab is in sight, and none out of sight."""
         self._turn()
 
     def _turn(self, *_):
-        seen = self.subject if self._looked_at else None
+        seen = self.subject if self.in_sight else None
         for subject in self._made.values():
             subject.question.looked_at = subject is seen
 
@@ -69,6 +68,6 @@ class Learn(Viewer):
         if not place.objects:
             place.append(subject)
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         return self.menu

@@ -109,7 +109,7 @@ class Lessons(Subject):
         _, start = answer
         chosen = self.definition
         self.figure.name_axis(gain_axis(chosen))
-        self.figure.show(level=chosen.levels(summary.solution), start=chosen.levels(start))
+        self.figure.show(level=chosen.gain(summary.solution).levels, start=chosen.gain(start).levels)
 
     def show(self, answer):
         """Show the introduction; what is revealed waits."""

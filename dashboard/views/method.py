@@ -9,20 +9,21 @@ import re
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import assets, theme
 from dashboard.views.components import PAPER
+from dashboard.views.tab import Tab
 
 _EQUATION = re.compile(r"^\$\$\n(.*?)\n\$\$$", re.DOTALL | re.MULTILINE)
 
 MISSING = "This installation lacks the text of the method, `assets/method.md`. Install trackig again."
 
 
-class Method(Viewer):
+class Method(Tab):
     """The method, written for readers."""
 
     title = "Method"
+    link_name = "method"
 
     def __init__(self):
         super().__init__()
@@ -32,7 +33,7 @@ class Method(Viewer):
             text = MISSING
         self.parts = [_part(*each) for each in split(text)]
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         return pmui.Paper(pmui.Column(*self.parts, max_width=theme.PROSE_WIDTH, margin=(4, 16)), **PAPER)
 

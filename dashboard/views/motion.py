@@ -14,8 +14,7 @@ from dashboard.figures.axes import BAND_AXIS
 from dashboard.figures.learn import PickFigure
 from dashboard.figures.motion import FilmPlayer, ShapePlayer
 from dashboard.teaching import explanations
-from dashboard.views.components import bokeh_pane, gain_axis
-from dashboard.views.sidebar import QuickSlider
+from dashboard.views.components import QuickSlider, bokeh_pane, gain_axis
 from dashboard.views.subjects import Subject, panel_of, words
 
 STEPS_PER_DECADE = 100
@@ -115,7 +114,7 @@ class Motion(Subject):
         if summary is None or not self.question.looked_at:
             return
         self.pick.name_axis(gain_axis(self.definition))
-        self.pick.show(level=self.definition.levels(summary.solution))
+        self.pick.show(level=self.definition.gain(summary.solution).levels)
         shape = tig.steady_shape(summary.design, float(self.pick.cursor.location))
         self.shape.show(shape)
         self.shape_words.object = explanations.shape_words(shape)

@@ -1,6 +1,6 @@
 """The pinned designs as a list in which they are named, recoloured, shown, put back and removed.
 
-The one rule: a row lives as long as its pin, so that nobody loses the focus while typing a name.
+A row lives as long as its pin, so that nobody loses the focus while typing a name.
 """
 
 import panel as pn
@@ -8,7 +8,8 @@ import panel_material_ui as pmui
 from panel.viewable import Viewer
 
 from dashboard import theme
-from dashboard.client.exchange import tell
+from dashboard.client.exchange import notify
+from dashboard.session.inputs import values_of
 from dashboard.session.pins import PinError
 from dashboard.views.components import swatch_svg
 from trackig_core.names import LONGEST_NAME
@@ -65,7 +66,7 @@ class PinRow(Viewer):
 
     def show(self, pin):
         """Show the pin as it stands."""
-        self.swatch.object = swatch_svg(pin.colour_code, pin.dash)
+        self.swatch.object = swatch_svg(*theme.look(pin.colour))
         self.name_box.param.update(value=pin.name, error_state=False, helper_text="")
         self.colour.value, self.shown.value = pin.colour, pin.shown
 
@@ -76,7 +77,7 @@ class PinRow(Viewer):
             self._pins.rename(self._key, event.new)
         except PinError as problem:
             self.name_box.param.update(error_state=True, helper_text="not taken")
-            tell("warning", str(problem))
+            notify("warning", str(problem))
 
     def _recolour(self, event):
         if event.new != self._pins[self._key].colour:
@@ -87,7 +88,8 @@ class PinRow(Viewer):
             self._pins.show(self._key, event.new)
 
     def _use(self, _):
-        self._inputs.take(self._pins[self._key].values)
+        pin = self._pins[self._key]
+        self._inputs.take(values_of(pin.design, pin.preset))
 
     def __panel__(self):
         """Return what is put on the page."""
@@ -135,6 +137,6 @@ class PinList(Viewer):
 
 
 NOTHING_YET = (
-    "Nothing is pinned yet. Pin the design at hand with the button above the sliders, "
+    "Nothing is pinned yet. Pin the current design with the button above the sliders, "
     "or the paper's four tracks with the one above."
 )

@@ -1,6 +1,6 @@
-"""The tab in which insertion gain becomes single numbers: what a source is with each design.
+"""The tab in which insertion gain becomes single numbers: the level of a source with each design.
 
-The one rule: levels are compared within one source; the table says which design they are compared with.
+Levels are compared within one source; the table says which design they are compared with.
 """
 
 import html
@@ -8,14 +8,14 @@ import html
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
 from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption, swatch_svg
+from dashboard.views.tab import Tab
 
 
-class ReceivedLevel(Viewer):
+class ReceivedLevel(Tab):
     """A source on the reference track, and its level with every design.
 
     Parameters
@@ -28,11 +28,11 @@ class ReceivedLevel(Viewer):
         Opens and saves files.
     """
 
-    title = "Level"
+    title = "Received level"
+    link_name = "level"
 
     def __init__(self, assessment, pins, exchange):
         super().__init__()
-        self._in_sight = False
         self._assessment, self._pins = assessment, pins
         self.base = pn.widgets.Select(
             label="Difference from",
@@ -48,8 +48,7 @@ class ReceivedLevel(Viewer):
             assessment, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
         )
         self.base.param.watch(self._choose, "value")
-        pins.param.watch(self._show, ["pinned", "base"])
-        assessment.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, ["results", "base"])
 
     def _offer(self):
         options = {CURRENT_NAME: CURRENT} | {pin.name: pin.key for pin in self._pins.pinned}
@@ -58,14 +57,13 @@ class ReceivedLevel(Viewer):
     def _choose(self, event):
         self._pins.choose_base(event.new or None)
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
-        self._in_sight = in_sight
+    def refresh(self):
+        """Show what has changed while nobody looked."""
         self._show()
 
     def _show(self, *_):
         # a select that was never drawn cannot take new options
-        if not self._in_sight:
+        if not self.in_sight:
             return
         self._offer()
         self.table.object = levels_html(
@@ -75,7 +73,7 @@ class ReceivedLevel(Viewer):
             _design(each) for each in self._assessment.shown if each.level is not None
         ]
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         return pmui.Column(
             pmui.Paper(caption("Level with the track", WORDS), self.base, self.table, **PAPER),
@@ -90,23 +88,23 @@ SOURCE_WORDS = "level per band with the reference track; only bands that have on
 NONE_GIVEN = "No source yet: type one below, paste it, or open a CSV file."
 
 
-def levels_html(assessed, source, base):
+def levels_html(results, source, base):
     """Return the levels of a source with designs as HTML, whatever characters their names are made of.
 
     Parameters
     ----------
-    assessed : iterable of Assessed
-        The designs.
+    results : iterable of DesignResult
+        Designs with a solution.
     source : trackig_core.SourceSpectrum or None
         The source.
-    base : Assessed or None
+    base : DesignResult
         The design from which differences are taken.
     """
-    if source is None or base is None:
+    if source is None or base.level is None:
         return f"<p>{NONE_GIVEN}</p>"
     reference = source.with_track(np.zeros_like(base.levels))
     rows = [("", "Reference track", reference)]
-    rows += [(swatch_svg(each.colour, each.dash), html.escape(each.name), each.level) for each in assessed]
+    rows += [(swatch_svg(each.colour, each.dash), html.escape(each.name), each.level) for each in results]
     name = html.escape(base.name)
     head = "".join(
         f'<th scope="col">{words}</th>'
@@ -128,7 +126,7 @@ def _row(mark, name, level, base):
     return f'<tr><th scope="row">{mark}<span class="name">{name}</span></th>{cells}</tr>'
 
 
-def _design(assessed):
-    cells = [["" if np.isnan(level) else formats.plain_text(level), False] for level in assessed.level.bands]
+def _design(result):
+    cells = [["" if np.isnan(level) else formats.plain_text(level), False] for level in result.level.bands]
     parts = [{"words": "level", "cells": cells}]
-    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}
+    return {"name": result.name, "colour": result.colour, "dash": list(result.dash), "parts": parts}

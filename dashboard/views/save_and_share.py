@@ -1,6 +1,6 @@
 """The tab from which everything is taken home: link, study, curves, plots, report.
 
-The one rule: what is opened replaces everything, or nothing and says why.
+What is opened replaces everything, or nothing and says why.
 """
 
 import asyncio
@@ -9,18 +9,18 @@ import html
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.client.exchange import COPYING, opening, saving, tell
+from dashboard.client.exchange import COPYING, notify, opening, saving
 from dashboard.compute.workers import workers
 from dashboard.persistence.exports import file_name, force_csv, gain_csv
 from dashboard.views.components import PAPER, caption
+from dashboard.views.tab import Tab
 from trackig_core.names import LONGEST_TITLE, allowed, is_name
 
 
-class SaveAndShare(Viewer):
+class SaveAndShare(Tab):
     """Link, study, downloads and report.
 
     Parameters
@@ -31,7 +31,8 @@ class SaveAndShare(Viewer):
         Where it goes.
     """
 
-    title = "Keep"
+    title = "Save & share"
+    link_name = "keep"
 
     def __init__(self, snapshot, exchange):
         super().__init__()
@@ -60,7 +61,7 @@ class SaveAndShare(Viewer):
         ]
         self.study_name.param.watch(self._rename, "value")
         self._assessment.param.watch(self._show_name, "title")
-        self._assessment.param.watch(self._enable, "assessed")
+        self._assessment.param.watch(self._enable, "results")
         exchange.on_file("study", self._open_study)
         self._enable()
 
@@ -93,7 +94,7 @@ class SaveAndShare(Viewer):
             self.message.object = f'<div role="alert">{html.escape(words)}</div>'
         else:
             self.message.object = ""
-            tell("success", "The study is open.")
+            notify("success", "The study is open.")
 
     def _save_gain(self, *_):
         self._exchange.save(self._file("gain.csv"), gain_csv(self._assessment.shown))
@@ -103,19 +104,20 @@ class SaveAndShare(Viewer):
 
     async def _save_report(self, *_):
         study, title = self._snapshot.study(), self._file("report.html")
-        summaries = {each.summary.design: each.summary for each in self._assessment.assessed}
+        solved = [each.summary for each in self._assessment.results if each.summary is not None]
+        summaries = {summary.design: summary for summary in solved}
         self.report.loading = True
         try:
             loop = asyncio.get_running_loop()
             report = await loop.run_in_executor(workers(), write_report, study, summaries)
         except ValueError:
-            tell("warning", NOT_SOLVED)
+            notify("warning", NOT_SOLVED)
         else:
             self._exchange.save(title, report, "text/html")
         finally:
             self.report.loading = False
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         groups = (
             ("Share", LINK_WORDS, [self.copy]),
@@ -165,4 +167,4 @@ LINK_WORDS = (
 STUDY_WORDS = "one file that people can read: designs, pinned designs, specification, source"
 CURVE_WORDS = "of this design and of the pinned designs that are shown"
 PLOT_WORDS = "as they are on the screen"
-NOT_SOLVED = "There is nothing to report yet: wait until the design at hand is solved."
+NOT_SOLVED = "There is nothing to report yet: wait until the current design is solved."

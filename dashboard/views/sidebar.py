@@ -4,11 +4,10 @@ Sliders count in steps, since Page Up moves a browser's slider by ten units, wha
 show the value itself, to screen readers and in the box. A box takes any number within the range, with
 point or comma, says what it takes when it gets something else, and never changes a number that was typed.
 
-The one rule: a widget changes an input and nothing else; no widget watches another.
+A widget changes an input and nothing else; no widget watches another.
 """
 
 import math
-from typing import ClassVar
 
 import panel as pn
 import panel_material_ui as pmui
@@ -19,6 +18,7 @@ from dashboard.fields import NUMBERS, SECOND_STAGE, STIFFNESSES, six_figures
 from dashboard.formats import quantity_text
 from dashboard.session.inputs import display_values
 from dashboard.theme import GROUP_HEADING, HIDDEN_LABEL, SELECT_CSS, SLIDER
+from dashboard.views.components import QuickSlider
 
 STEPS_PER_DECADE = 100
 """Steps of a logarithmic slider from a value to its tenfold."""
@@ -30,12 +30,6 @@ FULL_WIDTH = {"sizing_mode": "stretch_width", "margin": (2, 12, 4, 16), "stylesh
 
 BOX_WIDTH = 92
 """Width of a number box [px]."""
-
-
-class QuickSlider(pmui.FloatSlider):
-    """A slider that tells its moves at once, not after Panel's 50 ms; the runner drops what is too many."""
-
-    _priority_changes: ClassVar[list[str]] = ["value"]
 
 
 class QuantityControl(Viewer):

@@ -1,20 +1,17 @@
-"""The tab in which designs are held against a specification: limit, level and margin per band.
-
-The one rule: the verdict stands above the table, in words that can be read from the back row.
-"""
+"""The tab in which designs are compared with a specification: limit, level and margin per band."""
 
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
 from dashboard.views.components import PAPER, caption
+from dashboard.views.tab import Tab
 from dashboard.views.verdict import verdicts_html
 
 
-class SpecificationView(Viewer):
+class SpecificationView(Tab):
     """The required insertion gain, and how the designs fare.
 
     Parameters
@@ -26,10 +23,10 @@ class SpecificationView(Viewer):
     """
 
     title = "Specification"
+    link_name = "specification"
 
     def __init__(self, assessment, exchange):
         super().__init__()
-        self._in_sight = False
         self._assessment = assessment
         self.verdict = pn.pane.HTML(
             "", stylesheets=[theme.VERDICT_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
@@ -41,20 +38,19 @@ class SpecificationView(Viewer):
             "Limit, dB",
             "Greatest insertion gain allowed, and the designs",
         )
-        assessment.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, "results")
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, show what has changed meanwhile."""
-        self._in_sight = in_sight
+    def refresh(self):
+        """Show what has changed while nobody looked."""
         self._show()
 
     def _show(self, *_):
-        if not self._in_sight:
+        if not self.in_sight:
             return
-        self.verdict.object = verdicts_html(self._assessment.assessed)
+        self.verdict.object = verdicts_html(self._assessment.results)
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         return pmui.Column(
             pmui.Paper(caption("Verdict", WORDS), self.verdict, **PAPER),
@@ -64,21 +60,21 @@ class SpecificationView(Viewer):
         )
 
 
-WORDS = "bands without a limit say nothing; a margin of exactly 0 dB complies"
+WORDS = "bands without a limit are not assessed; a margin of exactly 0 dB complies"
 
 
-def _design(assessed):
+def _design(result):
     """Return the columns of a design: its insertion gain, and its margin if there is a limit."""
-    verdict = assessed.verdict
-    fails = np.zeros(assessed.levels.size, bool) if verdict is None else verdict.fails
+    verdict = result.verdict
+    fails = np.zeros(result.levels.size, bool) if verdict is None else verdict.fails
     gains = [
         [formats.signed_text(level), bool(failing)]
-        for level, failing in zip(assessed.levels, fails, strict=True)
+        for level, failing in zip(result.levels, fails, strict=True)
     ]
     parts = [{"words": "gain", "cells": gains}]
     if verdict is not None:
         parts.append({"words": "margin", "cells": [_margin_cell(margin) for margin in verdict.margins]})
-    return {"name": assessed.name, "colour": assessed.colour, "dash": list(assessed.dash), "parts": parts}
+    return {"name": result.name, "colour": result.colour, "dash": list(result.dash), "parts": parts}
 
 
 def _margin_cell(margin):

@@ -1,20 +1,20 @@
 """The tab in which the track is drawn as the sliders stand, so that a newcomer sees what each of them is.
 
-The one rule: the drawing follows the sliders, not the solver, and is not drawn while nobody looks.
+The drawing follows the sliders, not the solver, and is not drawn while nobody looks.
 """
 
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 from dashboard import theme
 from dashboard.fields import PHYSICAL
 from dashboard.figures.track_drawing import track_svg
 from dashboard.views.components import PAPER, caption
 from dashboard.views.frequencies import Frequencies
+from dashboard.views.tab import Tab
 
 
-class Track(Viewer):
+class Track(Tab):
     """The drawing, and the natural frequencies beside it.
 
     Parameters
@@ -22,32 +22,31 @@ class Track(Viewer):
     inputs : DesignInputs
         What is drawn.
     outcome : Outcome
-        Whose natural frequencies are told.
+        Whose natural frequencies are shown.
     """
 
     title = "Track"
+    link_name = "track"
 
     def __init__(self, inputs, outcome):
         super().__init__()
         self._inputs = inputs
-        self._in_sight = False
         self.drawing = pn.pane.HTML(
             "", sizing_mode="stretch_width", stylesheets=[theme.DRAWING_CSS], margin=(0, 12, 8, 12)
         )
         self.frequencies = Frequencies(outcome)
         inputs.param.watch(self._draw, list(PHYSICAL))
 
-    def look(self, in_sight):
-        """Note whether the tab is in sight; if so, draw the track as it stands."""
-        self._in_sight = in_sight
-        self.frequencies.look(in_sight)
+    def refresh(self):
+        """Draw the track as it stands."""
+        self.frequencies.look(self.in_sight)
         self._draw()
 
     def _draw(self, *_):
-        if self._in_sight:
+        if self.in_sight:
             self.drawing.object = track_svg(self._inputs.to_design())
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         drawing = pmui.Paper(caption("The track as the sliders stand", WORDS), self.drawing, **PAPER)
         frequencies = pmui.Paper(caption("Natural frequencies", ""), self.frequencies, **PAPER)

@@ -1,6 +1,6 @@
 """Verdicts in words: does a design comply, and if not, by how much and where.
 
-The one rule: colour never stands alone; name, dash and words say the same.
+Colour never stands alone; name, dash and words say the same.
 """
 
 import html
@@ -15,24 +15,23 @@ NONE_GIVEN = "No specification yet: type one below, paste it, or open a CSV file
 
 
 class ShortVerdict(Viewer):
-    """One line on the design at hand; it is empty while nothing is specified.
+    """One line on the current design; it is empty while nothing is specified.
 
     Parameters
     ----------
     assessment : Assessment
-        What is told.
+        Whose verdict is shown.
     """
 
     def __init__(self, assessment):
         super().__init__()
         self._assessment = assessment
         self.pane = pn.pane.HTML("", stylesheets=[theme.VERDICT_CSS], margin=(0, 12, 2, 12))
-        assessment.param.watch(self._show, "assessed")
+        assessment.param.watch(self._show, "results")
         self._show()
 
     def _show(self, *_):
-        there = self._assessment.assessed
-        verdict = there[0].verdict if there else None
+        verdict = self._assessment.current.verdict
         self.pane.object = "" if verdict is None else f'<p class="short">{badge(verdict)}</p>'
 
     def __panel__(self):
@@ -46,18 +45,18 @@ def badge(verdict):
     return f'<span class="{kind}"><b aria-hidden="true">{sign}</b> {html.escape(str(verdict))}</span>'
 
 
-def verdicts_html(assessed):
+def verdicts_html(results):
     """Return the verdicts on designs as HTML, whatever characters their names are made of.
 
     Parameters
     ----------
-    assessed : iterable of Assessed
+    results : iterable of DesignResult
         The designs; those without a verdict are left out.
     """
     rows = "".join(
         f"<li>{swatch_svg(each.colour, each.dash)}<span class='name'>{html.escape(each.name)}</span>"
         f"{badge(each.verdict)}</li>"
-        for each in assessed
+        for each in results
         if each.verdict is not None
     )
     return f'<ul role="list">{rows}</ul>' if rows else f"<p>{NONE_GIVEN}</p>"

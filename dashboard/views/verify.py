@@ -1,4 +1,4 @@
-"""The tab in which the run is held against theory, and theory against others.
+"""The tab in which the run is compared with theory, and theory with others.
 
 Under each picture stands what it proves and what it does not. The one rule: every figure in a sentence
 is computed from what is drawn beside it.
@@ -7,7 +7,6 @@ is computed from what is drawn beside it.
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-from panel.viewable import Viewer
 
 import trackig_core as tig
 from dashboard import formats, theme
@@ -21,6 +20,7 @@ from dashboard.figures.verification import (
     TimeStepFigure,
 )
 from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.tab import Tab
 
 FINE = tig.Lattice(elements_per_bay=24)
 """Lattice of the twin that is compared with an independent package."""
@@ -35,7 +35,7 @@ DAMPED = np.geomspace(5.0, 500.0, 200)
 NOTHING = np.full_like(DAMPED, np.nan)
 
 
-class Verify(Viewer):
+class Verify(Tab):
     """Run against exact answer, twin against an independent package, convergence, and damping.
 
     Parameters
@@ -43,13 +43,17 @@ class Verify(Viewer):
     outcome : Outcome
         Whose checked picture is shown.
     definition : GainDefinition
-        How its insertion gain is reckoned.
+        Which insertion gain is shown.
+    on_look : callable
+        Called with whether anybody looks: only then is anything checked.
     """
 
     title = "Verify"
+    link_name = "verify"
 
-    def __init__(self, outcome, definition):
+    def __init__(self, outcome, definition, on_look):
         super().__init__()
+        self._on_look = on_look
         self._outcome, self._definition = outcome, definition
         self.comparison = ComparisonFigure()
         self.difference = DifferenceFigure(self.comparison.bands)
@@ -85,6 +89,11 @@ class Verify(Viewer):
         outcome.param.watch(self._dim, ["verified", "problem", "progress"])
         self._show_peer()
         self._show()
+        self._dim()
+
+    def refresh(self):
+        """Have the solution checked while the tab is in sight."""
+        self._on_look(self.in_sight)
 
     def _show(self, *_):
         self._show_run()
@@ -110,10 +119,9 @@ class Verify(Viewer):
             self.words["run"].object = verified.problem
             return
         solution = verified.summary.solution
-        run, exact, scheme = (
-            chosen.levels(solution, spectrum)
-            for spectrum in (None, verified.theory.exact, verified.theory.scheme)
-        )
+        run = chosen.gain(solution).levels
+        exact = chosen.levels_of(verified.theory.exact, solution)
+        scheme = chosen.levels_of(verified.theory.scheme, solution)
         self.comparison.show(run, exact)
         self.difference.show(run - exact)
         self.words["run"].object = (
@@ -184,7 +192,7 @@ class Verify(Viewer):
             "real pad has the same loss factor at all frequencies."
         )
 
-    def __panel__(self):
+    def build(self):
         """Return what is put on the page."""
         comparison, difference, time_step, element, stiffness, loss_factor = self.panes
         run = pmui.Paper(

@@ -18,8 +18,7 @@ import trackig_core as tig
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.workers import MOVING, shared_store, solve_summary
 from dashboard.session.assessment import Assessment
-from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import GainDefinition
+from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.explore import Explore
@@ -56,9 +55,8 @@ def test_a_frame_on_the_server(benchmark, tell):
     """From a new picture to the message for the browser: figures patched, words changed, serialised."""
     outcome, definition, pins = Outcome(), GainDefinition(), Pins()
     pinned = PinnedSummaries(pins, shared_store())
-    curves = PinnedCurves(pins, pinned, definition)
-    assessment = Assessment(outcome, definition, pins, pinned, curves)
-    views = [Status(outcome, None, None), Explore(outcome, definition, pins, curves, assessment)]
+    assessment = Assessment(DesignInputs(), outcome, definition, pins, pinned)
+    views = [Status(outcome, None, None), Explore(outcome, definition, pins, assessment)]
     document = Document()
     pn.Column(*views).server_doc(document, location=False)
     summaries = [picture_of(OPENING.replace(boot_stiffness=20e6 + 1e5 * k), MOVING) for k in range(20)]

@@ -102,7 +102,7 @@ def test_a_whole_workshop(open_dashboard):
     np.testing.assert_array_equal(np.array(limit, dtype=float), SPECIFICATION.levels)
 
     # single number
-    open_tab(page, "Level")
+    open_tab(page, "Received level")
     source = tig.SourceSpectrum([(31.5, 60.0), (63, 70.5)])
     page.get_by_role("textbox", name="Paste").fill(source.to_csv().replace(",", "\t"))
     page.get_by_role("button", name="Take what is pasted").click()
@@ -112,7 +112,7 @@ def test_a_whole_workshop(open_dashboard):
     )
 
     # save
-    open_tab(page, "Keep")
+    open_tab(page, "Save & share")
     page.get_by_role("textbox", name="Name of the study").fill("Tunnel 7")
     page.get_by_role("textbox", name="Name of the study").press("Enter")
     name, study_file = download(page, "Save study")
@@ -127,14 +127,14 @@ def test_a_whole_workshop(open_dashboard):
     # reload from the link, in a browser that remembers nothing
     wait_for_link(page, wheel_mass="700", tab="keep")
     other = open_dashboard(query="?" + urlsplit(page.url).query)
-    expect(other.get_by_role("tab", name="Keep")).to_have_attribute("aria-selected", "true")
+    expect(other.get_by_role("tab", name="Save & share")).to_have_attribute("aria-selected", "true")
     open_tab(other, "Explore")
     wait_for_levels(other, solutions["This design"].insertion_gain)
     assert len(link(other)["pin"]) == 2
 
     # open the saved file
     another = open_dashboard()
-    open_tab(another, "Keep")
+    open_tab(another, "Save & share")
     open_file(another, "Open study", "wrong.toml", study_file.replace(b"wheel_mass_kg = 700", b"x = 1"))
     expect(another.get_by_text("Not opened, nothing has changed")).to_be_visible()
     open_file(another, "Open study", "study.toml", study_file)
@@ -175,7 +175,7 @@ def check_exports(page, solutions):
         assert MARKUP.encode() not in data
         if button == "Insertion gain, SVG":
             assert b"One-third-octave band, Hz" in data
-        expect(page.get_by_role("tab", name="Keep")).to_have_attribute("aria-selected", "true")
+        expect(page.get_by_role("tab", name="Save & share")).to_have_attribute("aria-selected", "true")
 
     name, data = download(page, "Report, HTML")
     assert name == "trackig-tunnel-7-report.html"

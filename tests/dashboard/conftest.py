@@ -13,8 +13,7 @@ from dashboard.compute.store import SolutionStore
 from dashboard.compute.workers import AT_REST, solve_summary
 from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
-from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import DesignInputs, GainDefinition, preset_values
+from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 
@@ -87,8 +86,7 @@ class Session:
         self._summary = summary
         self.inputs, self.outcome, self.definition = DesignInputs(), Outcome(), GainDefinition()
         self.pins, self.pinned = Pins(), Pictures()
-        curves = PinnedCurves(self.pins, self.pinned, self.definition)
-        self.assessment = Assessment(self.outcome, self.definition, self.pins, self.pinned, curves)
+        self.assessment = Assessment(self.inputs, self.outcome, self.definition, self.pins, self.pinned)
         tabs = ("explore", "specification", "level", "keep")
         self.snapshot = SessionSnapshot(self.inputs, self.definition, self.pins, self.assessment, tabs)
 
@@ -99,7 +97,7 @@ class Session:
 
     def pin(self, preset, name=""):
         """Pin a preset, solved, and return the pin."""
-        pin = self.pins.add(preset_values(preset), name)
+        pin = self.pins.add(tig.PRESETS[preset], name, preset)
         self.pinned.summaries = {**self.pinned.summaries, pin.key: self._summary(preset)}
         return pin
 

@@ -35,6 +35,70 @@ def test_the_page_opens_already_solved(store, summary):
     assert document.get_model_by_name("force").data["time"].size > 1000
 
 
+TABS = {
+    "explore": "Explore",
+    "compare": "Compare",
+    "specification": "Specification",
+    "level": "Received level",
+    "track": "Track",
+    "learn": "Learn",
+    "verify": "Verify",
+    "method": "Method",
+    "keep": "Save & share",
+}
+"""What links call the tabs, for ever, and what they are called on the page."""
+
+
+def test_tabs_have_titles_of_their_own_and_keep_their_names_in_links():
+    assert {tab.link_name: tab.title for tab in app.TABS} == TABS
+
+
+def open_tabs(store, monkeypatch, name, *others):
+    """Open the page by a link that names a tab, then others by number; return the first."""
+    monkeypatch.setattr(type(pn.state), "session_args", {"tab": [name.encode()]})
+
+    async def story():
+        (_, shown) = app.build(store).main
+        opened = shown.active
+        for other in others:
+            shown.active = other
+        async with asyncio.timeout(60):
+            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
+                await asyncio.wait(tasks)
+        return app.TABS[opened].link_name
+
+    return asyncio.run(story())
+
+
+@pytest.mark.parametrize("name", TABS)
+def test_a_link_opens_its_tab_and_makes_no_other(store, monkeypatch, name):
+    made = []
+    for tab in app.TABS:
+        start = tab.__init__
+
+        def counting(self, *arguments, start=start):
+            made.append(type(self).link_name)
+            start(self, *arguments)
+
+        monkeypatch.setattr(tab, "__init__", counting)
+    assert open_tabs(store, monkeypatch, name) == name
+    assert made == [name]
+
+
+def test_a_tab_is_made_once(store, monkeypatch):
+    made, start = [], app.Track.__init__
+    monkeypatch.setattr(app.Track, "__init__", lambda self, *parts: made.append(1) or start(self, *parts))
+    open_tabs(store, monkeypatch, "explore", 4, 0, 4)
+    assert made == [1]
+
+
+def test_a_view_is_told_when_it_is_in_sight_and_when_it_is_not(store, monkeypatch):
+    looks = []
+    monkeypatch.setattr(app.Method, "look", lambda _, active: looks.append(active))
+    open_tabs(store, monkeypatch, "method", 0, 7)
+    assert looks == [True, False, True]
+
+
 def test_another_session_s_work_does_not_make_this_page_busy(store):
     page = app.build(store)
     with edit_readonly(pn.state):
@@ -65,7 +129,7 @@ def test_a_page_that_cannot_be_made_says_so(monkeypatch, caplog):
 
 def test_an_escaped_exception_is_logged_and_told_without_its_text(caplog):
     pn.extension(notifications=True)
-    app.tell(ValueError("<script>alert(1)</script>"))
+    app.report_error(ValueError("<script>alert(1)</script>"))
     assert "alert(1)" in caplog.text
 
 

@@ -35,7 +35,7 @@ def sent(exchange, monkeypatch):
 @pytest.fixture
 def told(monkeypatch):
     words = []
-    monkeypatch.setattr(exchange_module, "tell", lambda kind, text: words.append((kind, text)))
+    monkeypatch.setattr(exchange_module, "notify", lambda kind, text: words.append((kind, text)))
     return words
 
 

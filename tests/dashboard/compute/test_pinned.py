@@ -8,15 +8,18 @@ import pytest
 import trackig_core as tig
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.workers import AT_REST
-from dashboard.session.inputs import preset_values
-from dashboard.session.pins import MOST, Pins
-
-VALUES = preset_values("booted-block-low-mass")
+from dashboard.session.pins import Pins
+from dashboard.theme import MOST_PINNED
 
 
 def varied(count):
-    """Return values that no preset has."""
-    return {**VALUES, "block_mass": 100.0 + count}
+    """Return a design that no preset is."""
+    return tig.PRESETS["booted-block-low-mass"].replace(block_mass=100.0 + count)
+
+
+def many(count, *names):
+    """Return designs to be pinned, each of its own, named if there are names."""
+    return [(varied(each), names[each] if names else "", None) for each in range(count)]
 
 
 def do(action, *arguments):
@@ -43,7 +46,7 @@ def test_what_the_store_knows_is_there_at_once(pins, make_store, fake_picture):
     pinned = PinnedSummaries(pins, store)
 
     async def pin():
-        added = pins.add(preset_values("slab-track"))
+        added = pins.add(tig.PRESETS["slab-track"])
         assert pinned.summaries == {added.key: known}
 
     asyncio.run(pin())
@@ -52,7 +55,7 @@ def test_what_the_store_knows_is_there_at_once(pins, make_store, fake_picture):
 def test_what_is_not_known_is_solved_at_rest_and_told(pins, instant_store):
     pinned, told = PinnedSummaries(pins, instant_store), []
     pinned.param.watch(lambda event: told.append(set(event.new)), "summaries")
-    new = do(pins.add_all, [(varied(count), "") for count in range(MOST)])
+    new = do(pins.add_all, many(MOST_PINNED))
     assert {key: summary.design for key, summary in pinned.summaries.items()} == {
         pin.key: pin.design for pin in new
     }
@@ -67,7 +70,7 @@ def test_pins_that_were_there_before_are_solved_too(pins, instant_store):
 
 def test_a_picture_goes_with_its_pin_and_stays_through_a_new_name(pins, instant_store):
     pinned = PinnedSummaries(pins, instant_store)
-    one, other = do(pins.add_all, [(varied(0), "one"), (varied(1), "other")])
+    one, other = do(pins.add_all, many(2, "one", "other"))
     shown = pinned.summaries[one.key]
     do(pins.rename, one.key, "renamed")
     assert pinned.summaries[one.key] is shown
@@ -106,7 +109,7 @@ def test_the_event_loop_goes_on_and_one_pin_is_solved_at_a_time(pins, make_store
     pinned = PinnedSummaries(pins, make_store(gate))
 
     async def story():
-        pins.add_all([(varied(count), "") for count in range(3)])
+        pins.add_all(many(3))
         await until(lambda: gate.running)
         await asyncio.sleep(0.05)
         assert pinned.summaries == {}
@@ -140,7 +143,7 @@ def test_a_design_that_cannot_be_solved_says_why_and_stops_none_of_the_others(pi
         return fake_picture(key[0])
 
     pinned = PinnedSummaries(pins, make_store(solve))
-    refused, fine = do(pins.add_all, [(varied(0), ""), (varied(1), "")])
+    refused, fine = do(pins.add_all, many(2))
     assert "the record is too long" in pinned.problems[refused.key]
     assert set(pinned.summaries) == {fine.key}
     do(pins.remove, refused.key)

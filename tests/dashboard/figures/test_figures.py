@@ -21,8 +21,9 @@ from dashboard.figures.force import (
     rounded_ends,
 )
 from dashboard.figures.insertion_gain import InsertionGainFigure
-from dashboard.figures.legends import MOST_CURVES
-from dashboard.session.curves import Curve
+from dashboard.session.pins import current_design
+from dashboard.session.results import DesignResult
+from dashboard.theme import MOST_PINNED
 
 # the least floats that there are would be lost when divided by a step
 ENDS = st.tuples(st.floats(-200, 200, allow_subnormal=False), st.floats(0.1, 200)).map(
@@ -73,17 +74,28 @@ def test_the_force_axis_moves_a_few_times_while_a_peak_grows_tenfold(summary):
     force, ends = ForceFigure(), []
     shown = summary("booted-block-low-mass")
     for factor in np.geomspace(1, 10, 40):
-        force.show(
-            dataclasses.replace(
-                shown,
-                total_force=factor * shown.total_force,
-                loaded_support_force=factor * shown.loaded_support_force,
-            )
+        louder = dataclasses.replace(
+            shown,
+            total_force=factor * shown.total_force,
+            loaded_support_force=factor * shown.loaded_support_force,
         )
+        force.show(current(louder))
         ends.append((force.model.y_range.start, force.model.y_range.end))
         assert ends[-1][0] <= factor * shown.total_force.min()
         assert factor * shown.total_force.max() <= ends[-1][1]
     assert len(set(ends)) <= 7
+
+
+def current(summary, louder=0.0):
+    """Return the result of a current design, its insertion gain raised [dB]."""
+    gain = dataclasses.replace(summary.solution.gain, levels=summary.solution.insertion_gain + louder)
+    return DesignResult(current_design(summary.design), summary, gain)
+
+
+def pinned(summary, name, louder=0.0):
+    """Return the result of a pinned design."""
+    record = tig.PinnedDesign(name, summary.design, key=1)
+    return dataclasses.replace(current(summary, louder), pinned=record)
 
 
 @pytest.fixture
@@ -100,10 +112,8 @@ def changed(summary, **frequencies):
 
 
 def draw(gain, summary, preset=None, louder=0.0):
-    """Draw a picture's insertion gain, and that of a preset behind it."""
-    solution = summary.solution
-    behind = None if preset is None else preset.solution.insertion_gain
-    gain.show(solution.insertion_gain + louder, behind, solution.natural_frequencies)
+    """Draw a solution's insertion gain, and that of a preset behind it."""
+    gain.show(current(summary, louder), preset=None if preset is None else current(preset))
 
 
 def listed(figure):
@@ -200,7 +210,7 @@ def test_a_zoomed_axis_is_left_alone(gain, summary):
 def test_the_forces_are_drawn_in_kilonewton(summary):
     force = ForceFigure()
     shown = summary("booted-block-low-mass")
-    force.show(shown)
+    force.show(current(shown))
     solution = tig.solve(tig.PRESETS["booted-block-low-mass"])
     data = force.samples.data
     at = np.searchsorted(solution.time, data["time"].astype(float) - 1e-6)
@@ -217,7 +227,7 @@ def test_the_forces_are_drawn_in_kilonewton(summary):
 def test_what_is_in_view_is_sent_whole_and_of_the_rest_an_outline(summary):
     force = ForceFigure()
     shown = summary("booted-block-low-mass")
-    force.show(shown)
+    force.show(current(shown))
     in_view = (shown.time >= TIME_AXIS[0]) & (shown.time <= TIME_AXIS[1])
     sent = force.samples.data["time"]
     assert np.count_nonzero((sent >= TIME_AXIS[0]) & (sent <= TIME_AXIS[1])) >= np.count_nonzero(in_view) - 1
@@ -228,7 +238,7 @@ def test_what_is_in_view_is_sent_whole_and_of_the_rest_an_outline(summary):
 def test_a_move_along_time_sends_what_comes_into_view(summary):
     force = ForceFigure()
     shown = summary("slab-track")
-    force.show(shown)
+    force.show(current(shown))
     force.model._trigger_event(RangesUpdate(force.model, x0=1.0, x1=1.2, y0=0, y1=1))
     sent = force.samples.data["time"]
     expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
@@ -259,34 +269,29 @@ def test_both_forces_have_a_name_and_a_hover():
     assert len(force.model.select({"type": HoverTool})) == len(names)
 
 
-def curve(summary, preset, name):
-    """Return a pinned design's curve of insertion gain."""
-    return Curve(name, summary(preset).solution.insertion_gain, theme.DESIGN_COLOURS[0], (3, 3))
-
-
 MARKUP = "<img src=x onerror=console.error(1)>"
 
 
 def test_pinned_curves_are_drawn_and_named(gain, summary):
-    solution = summary("booted-block-low-mass").solution
-    curves = (curve(summary, "slab-track", "a"), curve(summary, "booted-sleeper", MARKUP))
-    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves)
-    for place, each in enumerate(curves):
-        np.testing.assert_array_equal(gain.pins.data[f"pin_{place}"], each.drawn)
+    hand = current(summary("booted-block-low-mass"))
+    pins = (pinned(summary("slab-track"), "a"), pinned(summary("booted-sleeper"), MARKUP))
+    gain.show(hand, pins)
+    for place, each in enumerate(pins):
+        np.testing.assert_array_equal(gain.pins.data[f"pin_{place}"], each.levels)
     assert np.isnan(gain.pins.data["pin_2"]).all()
     assert listed(gain) == ["this design", "a", formats.name_text(MARKUP, theme.LEGEND_NAME)]
     (hover,) = gain.model.select({"type": HoverTool})
     assert [name for name, _ in hover.tooltips][-2:] == ["a", MARKUP]
-    gain.show(solution.insertion_gain, None, solution.natural_frequencies)
+    gain.show(hand)
     assert listed(gain) == ["this design"]
     assert np.isnan(gain.pins.data["pin_0"]).all()
 
 
 def test_all_pinned_curves_are_seen(gain, summary):
-    solution = summary("booted-block-low-mass").solution
-    high = Curve("loud", solution.insertion_gain + 40, theme.DESIGN_COLOURS[0], ())
-    gain.show(solution.insertion_gain, None, solution.natural_frequencies, (high,))
-    assert gain.model.y_range.end >= high.drawn.max()
+    shown = summary("booted-block-low-mass")
+    high = pinned(shown, "loud", louder=40.0)
+    gain.show(current(shown), (high,))
+    assert gain.model.y_range.end >= high.levels.max()
 
 
 def limits(**levels):
@@ -295,11 +300,11 @@ def limits(**levels):
 
 
 def test_a_limit_is_drawn_where_there_is_one_and_failing_bands_are_marked(gain, summary):
-    solution = summary("booted-block-low-mass").solution
-    levels = solution.insertion_gain
+    hand = current(summary("booted-block-low-mass"))
+    levels = hand.levels
     bands = {label: tig.BAND_LABELS.index(label) for label in ("40", "50", "100")}
     limit = limits(at_40=levels[bands["40"]] - 3, at_50=levels[bands["50"]] + 1, at_100=levels[bands["100"]])
-    gain.show(levels, None, solution.natural_frequencies, limit=limit)
+    gain.show(hand, limit=limit)
     data = gain.limit.data
     np.testing.assert_array_equal(data["limit"], limit)
     assert data["before"][bands["50"]] == limit[bands["40"]]
@@ -307,24 +312,23 @@ def test_a_limit_is_drawn_where_there_is_one_and_failing_bands_are_marked(gain, 
     assert list(np.flatnonzero(np.isfinite(data["failing"]))) == [bands["40"]]
     assert data["failing"][bands["40"]] == levels[bands["40"]]
     assert listed(gain) == ["this design", "required maximum", "exceeds it"]
-    gain.show(levels, None, solution.natural_frequencies)
+    gain.show(hand)
     assert listed(gain) == ["this design"]
 
 
-def test_curves_alone_leave_the_design_at_hand_out(gain, summary):
-    solution = summary("booted-block-low-mass").solution
-    curves = (curve(summary, "slab-track", "a"),)
-    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves, alone=True)
+def test_pins_alone_leave_the_current_design_out(gain, summary):
+    hand, pins = current(summary("booted-block-low-mass")), (pinned(summary("slab-track"), "a"),)
+    gain.show(hand, pins, alone=True)
     assert listed(gain) == ["a"]
     assert not marker(gain, "loaded_track")[0].visible
-    gain.show(solution.insertion_gain, None, solution.natural_frequencies, curves)
+    gain.show(hand, pins)
     assert listed(gain) == ["this design", "a"]
 
 
 def test_pinned_forces_are_drawn_and_follow_a_zoom(summary):
     force = ForceFigure()
-    pinned = (Curve("slab", summary("slab-track"), theme.DESIGN_COLOURS[0], ()),)
-    force.show(summary("booted-block-low-mass"), pinned)
+    hand = current(summary("booted-block-low-mass"))
+    force.show(hand, (pinned(summary("slab-track"), "slab"),))
     data, shown = force.pins[0].data, summary("slab-track")
     at = np.searchsorted(shown.time, data["time"].astype(float) - 1e-6)
     np.testing.assert_allclose(data["total"], shown.total_force[at], rtol=1e-5, atol=1e-6)
@@ -334,21 +338,19 @@ def test_pinned_forces_are_drawn_and_follow_a_zoom(summary):
     sent = force.pins[0].data["time"]
     expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
     assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
-    force.show(summary("booted-block-low-mass"))
+    force.show(hand)
     assert not len(force.pins[0].data["time"])
 
 
 def test_a_frame_sends_nothing_of_the_pins(gain, summary):
     force, shown = ForceFigure(), summary("booted-block-low-mass")
-    natural = shown.solution.natural_frequencies
-    gains = tuple(curve(summary, "slab-track", str(place)) for place in range(MOST_CURVES))
-    forces = tuple(each._replace(drawn=summary("slab-track")) for each in gains)
-    gain.show(shown.solution.insertion_gain, None, natural, gains)
-    force.show(shown, forces)
+    pins = [pinned(summary("slab-track"), str(place)) for place in range(MOST_PINNED)]
+    gain.show(current(shown), tuple(pins))
+    force.show(current(shown), tuple(pins))
     sources = (gain.pins, *force.pins)
     sent = [source.data for source in sources]
-    gain.show(shown.solution.insertion_gain + 1, None, natural, gains)
-    force.show(shown, forces)
+    gain.show(current(shown, louder=1.0), tuple(pins))
+    force.show(current(shown, louder=1.0), tuple(pins))
     assert all(source.data is before for source, before in zip(sources, sent, strict=True))
 
 

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from dashboard.fields import INPUTS, NUMBERS, six_figures
 from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
-from dashboard.session.inputs import DesignInputs, GainDefinition, check_values, preset_values
-from dashboard.session.pins import MOST, Pin, Pins
+from dashboard.session.inputs import DesignInputs, GainDefinition, check_values, design_of, preset_values
+from dashboard.session.pins import Pins
+from dashboard.theme import MOST_PINNED
 from trackig_core.names import LONGEST_NAME
 
 OPENING = DesignInputs().to_values()
@@ -40,6 +41,11 @@ def number(name):
     return st.floats(low, high).map(six_figures)
 
 
+def pin(name, colour, values, shown=True):
+    """Return a pinned design of some inputs."""
+    return tig.PinnedDesign(name, design_of(values), colour, shown, values["preset"])
+
+
 any_values = st.fixed_dictionaries(
     {
         "preset": st.sampled_from([*tig.PRESETS]),
@@ -55,10 +61,10 @@ any_name = st.text(min_size=1, max_size=LONGEST_NAME).filter(
     lambda name: name.isprintable() and name == name.strip() != ""
 )
 any_pins = st.lists(
-    st.tuples(any_name, st.integers(0, MOST - 1), any_values, st.booleans()),
-    max_size=MOST,
+    st.tuples(any_name, st.integers(0, MOST_PINNED - 1), any_values, st.booleans()),
+    max_size=MOST_PINNED,
     unique_by=(lambda pin: pin[0], lambda pin: pin[1]),
-).map(lambda rows: tuple(Pin(key, *row) for key, row in enumerate(rows)))
+).map(lambda rows: tuple(pin(*row) for row in rows))
 
 
 @given(any_values, any_view, any_pins, st.data())
@@ -101,9 +107,10 @@ def test_a_kept_link_opens_the_same_study_for_ever():
         "contact_stiffness": 1300.0,
     }
     assert link.view == {"summation": "coherent", "reference": "rigid"}
-    (pin,) = link.pins
-    assert (pin.name, pin.colour, pin.shown, link.base) == ("Söfter ~ ½", 3, False, 0)
-    assert pin.design == tig.PRESETS["booted-sleeper"].replace(
+    (opened_pin,) = link.pins
+    assert (opened_pin.name, opened_pin.colour, opened_pin.shown) == ("Söfter ~ ½", 3, False)
+    assert (opened_pin.preset, link.base) == ("booted-sleeper", 0)
+    assert opened_pin.design == tig.PRESETS["booted-sleeper"].replace(
         pad_stiffness=160e6, boot_loss_factor=0.3, rail=tig.RAILS["60E1"]
     )
     assert encode(link.values, link.view, link.pins, link.base) == LINK_OF_VERSION_1.replace("%7E", "~")
@@ -112,7 +119,7 @@ def test_a_kept_link_opens_the_same_study_for_ever():
 def test_the_longest_link_fits_any_server_and_browser():
     name = "\N{SNOWMAN}" * LONGEST_NAME
     values = {**OPENING, **dict.fromkeys(("pad_loss_factor", "fastener_spacing"), 0.212345)}
-    pins = [Pin(key, name[:-1] + str(key), key, values) for key in range(MOST)]
+    pins = [pin(name[:-1] + str(key), key, values) for key in range(MOST_PINNED)]
     assert len(encode(values, {}, pins)) < 5000
 
 
@@ -235,6 +242,17 @@ def test_pins_that_cannot_be_read_are_left_out_and_the_base_follows():
     )
 
 
+def test_a_single_stage_pin_reopens_whatever_an_old_link_says_of_its_second_stage():
+    slab = {"preset": "slab-track", "two_stage": 0, "pad_stiffness": 150}
+    link = opened(pin=pin_text(**slab, block_mass=321, boot_stiffness=7))
+    assert link.problems == ()
+    (slab_pin,) = link.pins
+    assert slab_pin.design.boot_stiffness is None
+    assert slab_pin.design.pad_stiffness == 150e6
+    again = decode(arguments(encode(OPENING, {}, link.pins)))
+    assert again.pins == link.pins
+
+
 def test_pins_are_made_to_differ():
     link = opened(pin=[pin_text(), pin_text(), pin_text(colour="99"), pin_text(colour="-1", name="")])
     assert [pin.name for pin in link.pins] == ["Pin", "Pin 2", "Pin 3", "Design 1"]
@@ -243,13 +261,13 @@ def test_pins_are_made_to_differ():
 
 def test_values_of_pins_are_clamped_and_said():
     link = opened(pin=pin_text(block_mass="1e6"))
-    assert link.pins[0].values["block_mass"] == 500
+    assert link.pins[0].design.block_mass == 500
     assert link.problems == ("Pin 1: Block mass is 1e+06, beyond 10 to 500; 500 was taken.",)
 
 
 def test_eight_pins_are_taken_of_a_thousand():
     link = opened(pin=[pin_text()] * 1000)
-    assert len(link.pins) == MOST
+    assert len(link.pins) == MOST_PINNED
     assert link.problems == ("The link has 1000 pinned designs; 8 were taken.",)
 
 
@@ -261,8 +279,8 @@ def test_a_base_that_is_no_pin_is_ignored_and_said(base):
 
 
 def test_names_in_a_link_are_shown_as_one_short_line():
-    (pin,) = opened(pin=pin_text(name="\u202ea\nb" + "c" * 400)).pins
-    assert pin.name == "a b" + "c" * 35 + "…"
+    (named,) = opened(pin=pin_text(name="\u202ea\nb" + "c" * 400)).pins
+    assert named.name == "a b" + "c" * 35 + "…"
 
 
 any_key = st.sampled_from(["v", "pin", "base", *INPUTS, *VIEW_CHOICES]) | st.text()
@@ -297,7 +315,7 @@ def test_nothing_that_a_link_may_hold_does_harm(hostile):
 
 
 def test_a_query_stays_one_argument_after_the_question_mark():
-    pin = Pin(0, "a&b=c#d?<e>", 0, OPENING)
-    parts = urlsplit("http://here/dashboard?" + encode(OPENING, {}, [pin]))
+    odd = pin("a&b=c#d?<e>", 0, OPENING)
+    parts = urlsplit("http://here/dashboard?" + encode(OPENING, {}, [odd]))
     assert parts.fragment == ""
-    assert decode(arguments(parts.query)).pins == (pin,)
+    assert decode(arguments(parts.query)).pins == (odd,)

@@ -30,10 +30,9 @@ def filled(session):
 
 
 def state(session):
-    pins = [(pin.name, pin.colour, pin.shown, dict(pin.values)) for pin in session.pins.pinned]
     base = session.pins.base and session.pins[session.pins.base].name
     chosen = session.definition.summation, session.definition.reference
-    return session.inputs.to_values(), pins, base, chosen
+    return session.inputs.to_values(), session.pins.pinned, base, chosen
 
 
 def test_a_link_reopens_design_pins_view_and_tab(filled, summary):

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, six_figures
 from dashboard.persistence.studies import from_study, to_study
-from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values
-from dashboard.session.pins import MOST, Pin, Pins
+from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
+from dashboard.session.pins import Pins
+from dashboard.theme import MOST_PINNED
 from trackig_core.names import LONGEST_NAME, is_name
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
@@ -44,13 +45,18 @@ printable = st.characters(exclude_categories=["C", "Z"], include_characters=" ")
 any_name = st.text(printable, min_size=1, max_size=LONGEST_NAME).filter(is_name)
 
 
+def pin(name, colour, values, shown):
+    """Return a pinned design of some inputs."""
+    return tig.PinnedDesign(name, design_of(values), colour, shown, values["preset"])
+
+
 def any_pins(least=0):
     return st.lists(
-        st.tuples(any_name, st.integers(0, MOST - 1), any_values, st.booleans()),
+        st.tuples(any_name, st.integers(0, MOST_PINNED - 1), any_values, st.booleans()),
         min_size=least,
-        max_size=MOST,
+        max_size=MOST_PINNED,
         unique_by=(lambda pin: pin[0], lambda pin: pin[1]),
-    ).map(lambda rows: tuple(Pin(key, *row) for key, row in enumerate(rows)))
+    ).map(lambda rows: tuple(pin(*row) for row in rows))
 
 
 def tables(kind):
@@ -78,9 +84,11 @@ def test_sliders_and_pins_take_what_a_study_opens(values, pins):
     inputs.take(opened.values)
     kept.replace_all(opened.pins, opened.base)
     assert inputs.to_values() == values
-    assert [(pin.name, pin.colour, pin.values, pin.shown) for pin in kept.pinned] == [
-        (pin.name, pin.colour, pin.values, pin.shown) for pin in pins
-    ]
+    assert kept.pinned == pins
+    for each in kept.pinned:
+        inputs.take(values_of(each.design, each.preset))
+        assert inputs.to_design() == each.design
+        assert inputs.preset == each.preset
     assert kept[kept.base].name == pins[-1].name
 
 

@@ -7,10 +7,12 @@ from bokeh.models import HoverTool
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.client.browser import Browser
-from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import DesignInputs, GainDefinition, preset_values
-from dashboard.session.pins import MOST, Pins
+from dashboard.session.assessment import Assessment
+from dashboard.session.inputs import DesignInputs, GainDefinition
+from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
+from dashboard.teaching.lessons import set_sliders
+from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
 from dashboard.views.components import swatch_svg
 from dashboard.views.design_bar import DesignBar
@@ -27,21 +29,13 @@ class Session:
     def __init__(self, summary, make_pictures):
         self.inputs, self.definition, self.pins = DesignInputs(), GainDefinition(), Pins()
         self.outcome = Outcome(summary=summary("booted-block-low-mass"))
-        self.slab, self.sleeper = self.pins.add_all([(preset_values(key), key) for key in KEYS])
+        self.slab, self.sleeper = self.pins.add_all([(tig.PRESETS[key], key, key) for key in KEYS])
         summaries = {self.slab.key: summary("slab-track"), self.sleeper.key: summary("booted-sleeper")}
         self.pinned = make_pictures(summaries=summaries)
-        self.curves = PinnedCurves(self.pins, self.pinned, self.definition)
+        self.assessment = Assessment(self.inputs, self.outcome, self.definition, self.pins, self.pinned)
         self.asked = []
-        self.view = Compare(
-            self.inputs,
-            self.outcome,
-            self.definition,
-            self.pins,
-            self.pinned,
-            self.curves,
-            lambda: self.asked.append(True),
-        )
-        self.view.look(in_sight=True)
+        self.view = Compare(self.inputs, self.pins, self.assessment, lambda: self.asked.append(True))
+        self.view.look(active=True)
 
     def level(self, key):
         return tig.solve(tig.PRESETS[key]).insertion_gain
@@ -99,11 +93,11 @@ def test_differences_are_drawn_from_the_base(session):
     own = session.level("booted-block-low-mass")
     np.testing.assert_allclose(data.data["pin_0"], session.level("slab-track") - own, atol=1e-9)
     np.testing.assert_allclose(data.data["pin_1"], session.level("booted-sleeper") - own, atol=1e-9)
-    assert np.isnan(data.data[f"pin_{MOST}"]).all()
+    assert np.isnan(data.data[f"pin_{MOST_PINNED}"]).all()
     session.pins.choose_base(session.slab.key)
     slab = session.level("slab-track")
     np.testing.assert_allclose(data.data["pin_0"], session.level("booted-sleeper") - slab, atol=1e-9)
-    np.testing.assert_allclose(data.data[f"pin_{MOST}"], own - slab, atol=1e-9)
+    np.testing.assert_allclose(data.data[f"pin_{MOST_PINNED}"], own - slab, atol=1e-9)
     names = [item.label.value for item in session.view.differences.model.legend[0].items if item.visible]
     assert names == ["this design", "booted-sleeper"]
     (hover,) = session.view.differences.model.select({"type": HoverTool})
@@ -111,7 +105,7 @@ def test_differences_are_drawn_from_the_base(session):
 
 
 def test_a_base_that_is_not_solved_yet_says_no_differences(session):
-    new = session.pins.add({**preset_values("slab-track"), "wheel_mass": 700.0}, "new")
+    new = session.pins.add(tig.PRESETS["slab-track"].replace(wheel_mass=700.0), "new")
     session.pins.choose_base(new.key)
     assert np.isnan(session.view.differences.differences.data["pin_0"]).all()
     assert [cell[0] for cell in session.row("63 Hz")][-1] == "–"
@@ -125,12 +119,12 @@ def test_the_choice_of_sum_is_compared_too(session):
     assert session.row("125 Hz")[1][0] == formats.signed_text(slab)
 
 
-def test_nothing_is_reckoned_while_nobody_looks(session, summary):
+def test_nothing_is_drawn_while_nobody_looks(session, summary):
     before = session.table
-    session.view.look(in_sight=False)
+    session.view.look(active=False)
     session.outcome.summary = summary("booted-block-high-mass")
     assert session.table == before
-    session.view.look(in_sight=True)
+    session.view.look(active=True)
     assert session.table != before
 
 
@@ -175,7 +169,7 @@ def test_no_name_becomes_markup(session):
     assert "&lt;img" in session.table
 
 
-def test_no_pin_can_be_taken_for_the_design_at_hand(session):
+def test_no_pin_can_be_taken_for_the_current_design(session):
     session.pins.rename(session.slab.key, "this design")
     assert list(session.view.base.options.values()) == [0, session.slab.key, session.sleeper.key]
 
@@ -189,11 +183,11 @@ def test_table_1_is_pinned_in_one_click_and_figure_2_shown_in_another(session):
 
 
 def test_where_there_is_no_room_for_table_1_nothing_changes(session):
-    values = preset_values("slab-track")
-    session.pins.add_all([({**values, "wheel_mass": 700.0 + count}, "") for count in range(MOST - 2)])
+    slab = tig.PRESETS["slab-track"]
+    session.pins.add_all((slab.replace(wheel_mass=700.0 + n), "", None) for n in range(MOST_PINNED - 2))
     for button in (session.view.table_1, session.view.figure_2):
         button.param.trigger("clicks")
-    assert len(session.pins.pinned) == MOST
+    assert len(session.pins.pinned) == MOST_PINNED
     assert not session.pins.alone
     assert session.asked == []
 
@@ -237,6 +231,17 @@ def test_a_preset_is_one_step(bar):
     assert bar.bar.undo.disabled
 
 
+def test_a_lesson_sets_the_sliders_in_one_step(bar):
+    before = bar.inputs.to_values()
+    set_sliders(bar.inputs, {"preset": "booted-sleeper", "boot_stiffness": 20.0, "wheel_mass": 700.0})
+    expected = tig.PRESETS["booted-sleeper"].replace(boot_stiffness=20e6, wheel_mass=700.0)
+    assert bar.inputs.to_design() == expected
+    assert bar.inputs.preset == "booted-sleeper"
+    bar.bar.undo.param.trigger("clicks")
+    assert bar.inputs.to_values() == before
+    assert bar.bar.undo.disabled
+
+
 def test_keys_without_a_step_do_nothing(bar):
     bar.browser.undone += 1
     bar.browser.redone += 1
@@ -255,11 +260,11 @@ def test_a_design_is_pinned_under_its_name_or_that_of_its_preset(bar):
 
 
 def test_a_ninth_pin_is_refused_and_its_name_kept(bar):
-    for _ in range(MOST):
+    for _ in range(MOST_PINNED):
         bar.bar.pin.param.trigger("clicks")
     bar.bar.name_box.value = "one more"
     bar.bar.pin.param.trigger("clicks")
-    assert len(bar.pins.pinned) == MOST
+    assert len(bar.pins.pinned) == MOST_PINNED
     assert bar.bar.name_box.value == "one more"
 
 
@@ -267,13 +272,13 @@ def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     inputs = DesignInputs()
     track = Track(inputs, Outcome(summary=summary("slab-track")))
     assert track.drawing.object == ""
-    track.look(in_sight=True)
+    track.look(active=True)
     inputs.block_mass = 222.0
     assert "222 kg" in track.drawing.object
-    track.look(in_sight=False)
+    track.look(active=False)
     inputs.block_mass = 111.0
     assert "222 kg" in track.drawing.object
     inputs.two_stage = False
-    track.look(in_sight=True)
+    track.look(active=True)
     assert "kg" in track.drawing.object
     assert "111 kg" not in track.drawing.object

@@ -9,8 +9,7 @@ import trackig_core as tig
 from dashboard.fields import PRESET_LABELS
 from dashboard.formats import duration_text
 from dashboard.session.assessment import Assessment
-from dashboard.session.curves import PinnedCurves
-from dashboard.session.inputs import GainDefinition, preset_values
+from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.explore import Explore
@@ -29,9 +28,8 @@ def explore(make_pictures):
 
     def make(outcome, definition, pins=None, pinned=None):
         pins, pinned = pins or Pins(), pinned or make_pictures()
-        curves = PinnedCurves(pins, pinned, definition)
-        assessment = Assessment(outcome, definition, pins, pinned, curves)
-        return Explore(outcome, definition, pins, curves, assessment)
+        assessment = Assessment(DesignInputs(), outcome, definition, pins, pinned)
+        return Explore(outcome, definition, pins, assessment)
 
     return make
 
@@ -185,7 +183,7 @@ def test_observed_frequencies_stand_beside_the_computed_ones(summary):
 
 def test_pins_that_are_shown_are_drawn_behind_the_design(explore, outcome, summary, make_pictures):
     pins, pinned = Pins(), make_pictures()
-    one, other = pins.add_all([(preset_values(key), key) for key in ("slab-track", "booted-sleeper")])
+    one, other = pins.add_all([(tig.PRESETS[key], key, key) for key in ("slab-track", "booted-sleeper")])
     outcome.summary = summary("booted-block-low-mass")
     view = explore(outcome, GainDefinition(), pins, pinned)
     assert np.isnan(view.insertion_gain.pins.data["pin_0"]).all()
@@ -201,9 +199,23 @@ def test_pins_that_are_shown_are_drawn_behind_the_design(explore, outcome, summa
     assert not len(view.force.pins[1].data["time"])
 
 
+def test_a_specification_is_drawn_as_a_limit_as_soon_as_it_is_given(outcome, summary, make_pictures):
+    definition, pins = GainDefinition(), Pins()
+    outcome.summary = summary("booted-block-low-mass")
+    assessment = Assessment(DesignInputs(), outcome, definition, pins, make_pictures())
+    view = Explore(outcome, definition, pins, assessment)
+    band = tig.BAND_LABELS.index("63")
+    assessment.specification = tig.Specification([(63, -3.0)])
+    assert view.insertion_gain.limit.data["limit"][band] == -3.0
+    assessment.specification = tig.Specification([(63, -4.0)])
+    assert view.insertion_gain.limit.data["limit"][band] == -4.0
+    assessment.specification = None
+    assert np.isnan(view.insertion_gain.limit.data["limit"]).all()
+
+
 def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, summary, make_pictures):
     pins, definition = Pins(), GainDefinition()
-    pins.add(preset_values("slab-track") | {"pad_stiffness": 500.0}, "of my own")
+    pins.add(tig.PRESETS["slab-track"].replace(pad_stiffness=500e6), "of my own")
     outcome.summary = summary("booted-block-low-mass")
     view = explore(outcome, definition, pins, make_pictures())
     pins.show_table_1()
@@ -212,7 +224,7 @@ def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, s
         outcome,
         definition,
         pins,
-        make_pictures(summaries={pin.key: summary(pin.values["preset"]) for pin in pins.shown}),
+        make_pictures(summaries={pin.key: summary(pin.preset) for pin in pins.shown}),
     )
     names = [item.label.value for item in view.insertion_gain.model.legend[0].items if item.visible]
     assert names == list(PRESET_LABELS.values())

@@ -128,20 +128,20 @@ def test_the_verdict_names_every_design_in_words(session, view):
     session.assessment.specification = tig.Specification([(160, 0.0)])
     text = view.verdict.object
     assert "<img" not in text
-    for each in session.assessment.assessed:
+    for each in session.assessment.results:
         assert str(each.verdict) in text
         assert each.colour in text
-    assert [each.verdict.complies for each in session.assessment.assessed] == [True, False]
+    assert [each.verdict.complies for each in session.assessment.results] == [True, False]
     hand, slab = view.editor.grid.designs
     band = tig.BAND_LABELS.index("160")
     assert hand["parts"][0]["cells"][band][1] is False
-    margin = session.assessment.assessed[1].verdict.margins[band]
+    margin = session.assessment.results[1].verdict.margins[band]
     assert slab["parts"][1]["cells"][band] == [f"✗ −{abs(margin):.1f}", True]
     assert slab["parts"][1]["cells"][0] == ["", False]
 
 
 def test_a_margin_that_rounds_to_nothing_still_fails_in_the_table(session, view):
-    gain = session.assessment.assessed[0].levels[0]
+    gain = session.assessment.results[0].levels[0]
     session.assessment.specification = tig.Specification([(5, float(gain) - 0.001)])
     cell = view.editor.grid.designs[0]["parts"][1]["cells"][0]
     assert cell == ["✗ −0.0", True]
@@ -162,7 +162,7 @@ def test_the_short_verdict_is_seen_once_there_is_one(session):
     session.show("slab-track")
     assert short.pane.object == ""
     session.assessment.specification = tig.Specification([(63, 0.0)])
-    assert str(session.assessment.assessed[0].verdict) in short.pane.object
+    assert str(session.assessment.results[0].verdict) in short.pane.object
 
 
 def test_levels_stand_with_their_difference_from_the_base(session, level):
@@ -236,7 +236,7 @@ def test_the_report_shows_what_is_on_screen(session, exchange):
     asyncio.run(view._save_report())
     name, text, kind = exchange.saved[-1]
     assert (name, kind) == ("trackig-study-report.html", "text/html")
-    assert str(session.assessment.assessed[0].verdict) in text
+    assert str(session.assessment.results[0].verdict) in text
     assert "<img" not in text
     assert not view.report.loading
 

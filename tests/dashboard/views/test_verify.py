@@ -22,7 +22,7 @@ def outcome():
 
 @pytest.fixture
 def view(outcome):
-    return Verify(outcome, GainDefinition())
+    return Verify(outcome, GainDefinition(), lambda _: None)
 
 
 def test_nothing_is_checked_that_nobody_looks_at(outcome, summary, monkeypatch):
@@ -32,11 +32,11 @@ def test_nothing_is_checked_that_nobody_looks_at(outcome, summary, monkeypatch):
     )
 
     async def session():
-        VerificationRunner(outcome)
+        checker = VerificationRunner(outcome)
         outcome.summary = summary("slab-track")
         await asyncio.sleep(0.05)
         assert asked == []
-        outcome.verifying = True
+        checker.look(True)
         await asyncio.sleep(0.2)
         assert asked == [summary("slab-track")]
         outcome.summary = summary("booted-sleeper")
@@ -57,8 +57,9 @@ def test_only_the_newest_picture_is_checked_next(outcome, summary, monkeypatch):
     monkeypatch.setattr(checker_module, "check", slow)
 
     async def session():
-        VerificationRunner(outcome)
-        outcome.param.update(summary=summary("slab-track"), verifying=True)
+        checker = VerificationRunner(outcome)
+        checker.look(True)
+        outcome.summary = summary("slab-track")
         while not asked:
             await asyncio.sleep(0.01)
         for name in ("booted-sleeper", "booted-block-low-mass", "booted-block-high-mass"):
@@ -106,7 +107,7 @@ def test_run_and_exact_answer_are_drawn_with_their_difference_in_words(outcome, 
 
 def test_the_checks_follow_the_choice_of_sum_and_reference(outcome, summary):
     definition = GainDefinition()
-    view = Verify(outcome, definition)
+    view = Verify(outcome, definition, lambda _: None)
     outcome.verified = check(summary("booted-sleeper"))
     definition.param.update(reference="rigid", summation="coherent")
     expected = tig.solve(tig.PRESETS["booted-sleeper"], "exact", reference="rigid", summation="coherent")
