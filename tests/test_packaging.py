@@ -59,12 +59,12 @@ def test_a_wheel_holds_all_code_and_all_texts(wheel):
         file.relative_to(ROOT).as_posix()
         for package in ("trackig_core", "dashboard")
         for file in (ROOT / package).rglob("*")
-        if file.suffix in (".py", ".csv", ".html", ".js")
+        if file.suffix in (".py", ".csv", ".html", ".js") or file.name == "py.typed"
     }
     texts = {
         "trackig_assets/" + file.relative_to(ROOT / "assets").as_posix()
         for file in (ROOT / "assets").rglob("*")
-        if file.suffix in (".svg", ".md")
+        if file.suffix in (".svg", ".md", ".ipynb")
     }
     assert texts
     assert held == code | texts

@@ -33,6 +33,14 @@ def model(page, name, attribute):
 
 
 def set_model(page, name, attribute, value):
+    """Set a property of a model in the browser, once it has been drawn."""
+    page.wait_for_function(
+        """name => {
+            const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
+            return view != null && view.has_finished() && view.el.isConnected
+        }""",
+        arg=name,
+    )
     page.evaluate(
         "([name, attribute, value]) => { Bokeh.documents[0].get_model_by_name(name)[attribute] = value }",
         [name, attribute, value],
