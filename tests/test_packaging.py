@@ -64,7 +64,7 @@ def test_a_wheel_holds_all_code_and_all_texts(wheel):
     texts = {
         "trackig_assets/" + file.relative_to(ROOT / "assets").as_posix()
         for file in (ROOT / "assets").rglob("*")
-        if file.suffix in (".svg", ".md")
+        if file.suffix in (".svg", ".md", ".ipynb")
     }
     assert texts
     assert held == code | texts

@@ -32,9 +32,84 @@ def wait_until_solved(page, timeout=60_000):
     expect(page.get_by_role("status").filter(has_text=SOLVED).first).to_be_visible(timeout=timeout)
 
 
-@pytest.fixture(scope="session")
+def wait_until_at_rest(page):
+    """Wait until a page stands still and its layout has been the same for twenty pictures on end."""
+    page.wait_for_function("() => Bokeh.documents[0].is_idle")
+    page.evaluate(
+        """() => new Promise(done => {
+            let last = "", same = 0
+            const look = () => {
+                const places = [...Bokeh.index.roots].map(root => root.el?.getBoundingClientRect())
+                const {scrollWidth, scrollHeight, scrollTop} = document.scrollingElement
+                const now = JSON.stringify([places, scrollWidth, scrollHeight, scrollTop])
+                same = now == last && Bokeh.documents[0].is_idle ? same + 1 : 0
+                last = now
+                same == 20 ? done() : requestAnimationFrame(look)
+            }
+            look()
+        })"""
+    )
+
+
+def resting_place(page, figure, x, down):
+    """Return where a figure at rest shows a value of x, so many pixels below the top of its frame."""
+    page.wait_for_function(
+        "name => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name)) != null", arg=figure
+    )
+    return page.evaluate(
+        """([name, x, down]) => new Promise(done => {
+            const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
+            let last = "", same = 0
+            const look = () => {
+                const box = view.canvas_view.el.getBoundingClientRect()
+                const place = [box.x + view.frame.x_scale.compute(x), box.y + view.frame.bbox.top + down]
+                same = String(place) == last ? same + 1 : 0
+                last = String(place)
+                same == 20 ? done(place) : requestAnimationFrame(look)
+            }
+            look()
+        })""",
+        [figure, x, down],
+    )
+
+
+def hover_until_shown(page, figure, x, shown, patience=60):
+    """Rest the pointer on a figure until something is shown; a late layout may move the figure away."""
+    deadline = time.monotonic() + patience
+    while not shown.is_visible() and time.monotonic() < deadline:
+        across, down = resting_place(page, figure, x, 20)
+        page.mouse.move(across, down + 5)
+        page.mouse.move(across, down)
+        page.wait_for_timeout(100)
+    expect(shown).to_be_visible()
+
+
+def count_sent(page):
+    """Have a page count its messages to the server in ``window.sent``, and wait until it has none to send."""
+    page.evaluate(
+        """() => new Promise(done => {
+            window.sent = 0
+            const send = WebSocket.prototype.send
+            WebSocket.prototype.send = function (...data) { window.sent += 1; return send.apply(this, data) }
+            let last = 0, quiet = 0
+            const look = () => {
+                quiet = window.sent == last && Bokeh.documents[0].is_idle ? quiet + 1 : 0
+                last = window.sent
+                if (quiet < 10) return setTimeout(look, 50)
+                window.sent = 0
+                done()
+            }
+            look()
+        })"""
+    )
+
+
+@pytest.fixture(scope="package")
 def chromium():
-    """Start the system's browser, not one that Playwright would have to download."""
+    """Start the system's browser, not one that Playwright would have to download.
+
+    It ends with the last test in a browser: Playwright's event loop would not let others run theirs.
+    """
     path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         reason = f"no browser found (looked for {', '.join(BROWSERS)})"
@@ -49,7 +124,7 @@ def chromium():
         browser.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def address(chromium, tmp_path_factory):  # noqa: ARG001  (no browser, no server)
     """Serve the dashboard as a user does, and return its address."""
     with serving(free_port(), tmp_path_factory.mktemp("server") / "log.txt") as url:
@@ -107,37 +182,103 @@ def _wait_until_served(url, server, log):
     pytest.fail(f"the server did not start:\n{log.read_text()}")
 
 
+class Reader:
+    """A browser with one memory for scripts, which reads and compiles them once for all its pages.
+
+    Parameters
+    ----------
+    chromium : playwright.sync_api.Browser
+        The browser.
+    address : str
+        Where the dashboard is served.
+    """
+
+    def __init__(self, chromium, address):
+        self._address = address
+        self._context = chromium.new_context()
+        self._kept = {}
+        self._complaints, self._requested = [], []
+
+    def open(self, width=1440, height=900, query=""):
+        """Open the dashboard in a session of its own."""
+        page = self._context.new_page()
+        page.set_viewport_size({"width": width, "height": height})
+        page.set_default_timeout(60_000)
+        page.on("request", lambda request: self._requested.append(request.url))
+        page.on("websocket", lambda websocket: self._requested.append(websocket.url))
+        page.on("pageerror", lambda error: self._complaints.append(str(error)))
+        page.on("console", self._listen)
+        page.goto(self._address + query)
+        wait_until_solved(page)
+        return page
+
+    def keep(self, width=1440, height=900):
+        """Return a page that tests share: what one leaves there the next one finds."""
+        size = (width, height)
+        if size not in self._kept:
+            self._kept[size] = self.open(*size)
+        self._kept[size].bring_to_front()
+        return self._kept[size]
+
+    def _listen(self, line):
+        if line.type in ("error", "warning"):
+            self._complaints.append(line.text)
+
+    def forget(self):
+        """Close what is not kept, with all that it left in the browser's memory."""
+        for page in self._context.pages:
+            if page not in self._kept.values():
+                page.evaluate("() => localStorage.clear()")
+                page.close()
+        self._context.clear_permissions()
+        self._context.clear_cookies()
+
+    def check(self):
+        """No page may have complained, nor asked for anything from elsewhere, since the last check."""
+        complaints, requested = [*self._complaints], [*self._requested]
+        self._complaints.clear()
+        self._requested.clear()
+        here = self._address.removeprefix("http://").removesuffix("dashboard")
+        local = (f"http://{here}", f"ws://{here}", "data:", "blob:")
+        assert [url for url in requested if not url.startswith(local)] == []
+        assert complaints == []
+        return requested
+
+    def close(self):
+        """Close all pages."""
+        self._context.close()
+
+
+@pytest.fixture(scope="package")
+def reader(chromium, address):
+    """Return a browser's reader of the dashboard."""
+    one = Reader(chromium, address)
+    yield one
+    one.close()
+
+
 @pytest.fixture
-def open_dashboard(address, chromium):
+def open_dashboard(reader):
     """Return a function that opens the dashboard in a session of its own.
 
     Afterwards no page may have complained, nor asked for anything from elsewhere.
     """
-    complaints, requested, contexts = [], [], []
-
-    def open_page(width=1440, height=900, query=""):
-        contexts.append(chromium.new_context(viewport={"width": width, "height": height}))
-        page = contexts[-1].new_page()
-        page.set_default_timeout(60_000)
-        page.on("request", lambda request: requested.append(request.url))
-        page.on("websocket", lambda websocket: requested.append(websocket.url))
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on("console", lambda line: line.type in ("error", "warning") and complaints.append(line.text))
-        page.goto(address + query)
-        wait_until_solved(page)
-        return page
-
-    yield open_page
-    for context in contexts:
-        context.close()
-    here = address.removeprefix("http://").removesuffix("dashboard")
-    local = (f"http://{here}", f"ws://{here}", "data:", "blob:")
-    assert requested
-    assert [url for url in requested if not url.startswith(local)] == []
-    assert complaints == []
+    yield reader.open
+    reader.forget()
+    assert reader.check()
 
 
 @pytest.fixture
 def dashboard(open_dashboard):
     """Open the dashboard."""
     return open_dashboard()
+
+
+@pytest.fixture
+def kept_dashboard(reader):
+    """Return a function that gives the page of a size that tests share which set all that they look at.
+
+    Afterwards no page may have complained, nor asked for anything from elsewhere.
+    """
+    yield reader.keep
+    reader.check()

@@ -5,6 +5,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
+from tests.browser.conftest import hover_until_shown, wait_until_at_rest
 from tests.browser.test_dashboard import (
     MARKUP,
     OPENING,
@@ -82,20 +83,7 @@ def test_two_designs_are_pinned_renamed_hidden_and_compared(dashboard):
 def test_names_are_told_as_text_when_the_pointer_rests_on_a_band(dashboard):
     pin(dashboard, MARKUP)
     wait_until_listed(dashboard, "insertion_gain_figure", ["this design", f"{MARKUP[:23]}…"])
-    place = """() => {
-        const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("insertion_gain_figure"))
-        const box = view.canvas_view.el.getBoundingClientRect()
-        return [box.x + view.frame.x_scale.compute(100), box.y + view.frame.bbox.top + 20]
-    }"""
-    told = dashboard.get_by_text(MARKUP)
-    for _ in range(100):
-        x, y = dashboard.evaluate(place)
-        dashboard.mouse.move(x, y + 5)
-        dashboard.mouse.move(x, y)
-        if told.last.is_visible():
-            break
-        dashboard.wait_for_timeout(100)
-    expect(told.last).to_be_visible()
+    hover_until_shown(dashboard, "insertion_gain_figure", 100, dashboard.get_by_text(MARKUP).last)
 
 
 def test_a_drag_is_undone_by_one_key_press_and_redone_by_another(dashboard):
@@ -123,11 +111,12 @@ def test_undo_keys_are_left_to_a_box_in_which_somebody_types(dashboard):
     dashboard.keyboard.type("soft")
     dashboard.keyboard.press("Control+z")
     expect(name).not_to_have_value("soft")
-    dashboard.wait_for_timeout(500)
-    expect(box(dashboard, "Block mass, kg")).to_have_value("100")
+    # had the keys undone anything, nothing would be left to undo, and this button disabled
     dashboard.get_by_role("button", name="Undo (Ctrl+Z)").click()
     expect(box(dashboard, "Block mass, kg")).to_have_value("45")
     wait_for_levels(dashboard, tig.solve(OPENING).insertion_gain)
+    dashboard.get_by_role("button", name="Redo").click()
+    expect(box(dashboard, "Block mass, kg")).to_have_value("100")
 
 
 def test_one_click_draws_the_papers_figure_2(dashboard):
@@ -170,12 +159,14 @@ def test_axes_are_legible_in_both_themes(open_dashboard, width, least):
         .map(name => Bokeh.documents[0].get_model_by_name(name))
         .flatMap(figure => [...figure.left, ...figure.below])
         .flatMap(axis => [axis.major_label_text_font_size, axis.axis_label_text_font_size])"""
+    background = "Bokeh.documents[0].get_model_by_name('insertion_gain_figure').background_fill_color"
     for _ in range(2):
+        before = page.evaluate(f"() => {background}")
         page.wait_for_function(
             f"least => ({sizes})().every(size => size.endsWith('px') && parseFloat(size) >= least)", arg=least
         )
         page.get_by_label("Toggle theme").click()
-        page.wait_for_timeout(500)
+        page.wait_for_function(f"before => {background} != before", arg=before)
 
 
 def test_figures_and_buttons_have_names(dashboard):
@@ -193,5 +184,6 @@ def test_no_tab_is_wider_than_the_window(open_dashboard, width):
     expect(page.get_by_role("columnheader", name="Booted sleeper")).to_be_visible()
     for name in ("Compare", "Track", "Explore"):
         tab(page, name)
-        page.wait_for_timeout(300)
+        expect(page.get_by_role("tab", name=name)).to_have_attribute("aria-selected", "true")
+        wait_until_at_rest(page)
         assert page.evaluate("() => document.scrollingElement.scrollWidth") <= width

@@ -7,6 +7,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
+from tests.browser.conftest import hover_until_shown, wait_until_at_rest
 
 pytestmark = pytest.mark.browser
 
@@ -31,14 +32,14 @@ def levels(page):
     return column(page, "insertion_gain", "level")
 
 
-def wait_for_levels(page, expected):
+def wait_for_levels(page, expected, source="insertion_gain"):
     """Wait until the curve in the browser is the expected one; then compare it to the last digit shown."""
     page.wait_for_function(
-        """expected => {
-            const level = Bokeh.documents[0].get_model_by_name("insertion_gain")?.data.level ?? []
+        """([source, expected]) => {
+            const level = Bokeh.documents[0].get_model_by_name(source)?.data.level ?? []
             return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
         }""",
-        arg=[float(level) for level in expected],
+        arg=[source, [float(level) for level in expected]],
     )
 
 
@@ -95,8 +96,12 @@ WATCH = """() => {
 }"""
 
 
-def drag(page, label, positions, pixels=2, pause=20):
-    """Drag a slider's thumb to the right by some positions, without letting go."""
+def drag(page, label, positions, pixels=2, pause=20, pictures=0):
+    """Drag a slider's thumb to the right by some positions, without letting go.
+
+    A number of pictures may be given which a page that counts them (``WATCH``) must have drawn by the end:
+    then the hand is no faster than a slow machine draws.
+    """
     thumb = slider(page, label).locator("xpath=..")
     thumb.hover()
     corner = thumb.bounding_box()
@@ -105,6 +110,8 @@ def drag(page, label, positions, pixels=2, pause=20):
     for step in range(1, positions + 1):
         page.mouse.move(x + pixels * step, y)
         page.wait_for_timeout(pause)
+        due = pictures * step // positions
+        page.wait_for_function("due => due == 0 || window.frames_drawn.length >= due", arg=due)
 
 
 def test_dragging_a_slider_ends_on_the_paper_run_of_its_last_value(dashboard):
@@ -122,8 +129,7 @@ def test_dragging_a_slider_ends_on_the_paper_run_of_its_last_value(dashboard):
 def test_pictures_follow_the_hand_in_order(dashboard):
     """Stiffer boots raise the gain at 63 Hz step by step: a stale frame would step back."""
     dashboard.evaluate(WATCH)
-    drag(dashboard, "Boot stiffness, kN/mm", 30, pause=30)
-    dashboard.wait_for_function("() => window.frames_drawn.length >= 8")
+    drag(dashboard, "Boot stiffness, kN/mm", 30, pause=30, pictures=8)
     expect(dashboard.get_by_text("live run", exact=True)).to_be_visible()
     while_moving = dashboard.evaluate("() => window.frames_drawn")
     dashboard.mouse.up()
@@ -266,30 +272,16 @@ def test_time_is_counted_in_ms_or_s_as_zoom_asks(dashboard):
 
 
 def test_hover_tells_band_and_value(dashboard):
-    place = """() => {
-        const figure = Bokeh.documents[0].get_model_by_name("insertion_gain_figure")
-        const view = Bokeh.index.find_one(figure)
-        const box = view.canvas_view.el.getBoundingClientRect()
-        return [box.x + view.frame.x_scale.compute(100), box.y + view.frame.bbox.top + 20]
-    }"""
     band = dashboard.get_by_text("100 Hz", exact=True)
     level = f"{tig.solve(OPENING).insertion_gain[13]:+.1f} dB".replace("-", "−")
-    dashboard.mouse.move(*dashboard.evaluate(place))
-    for _ in range(100):
-        # until the layout has settled, the place may move away from under the pointer
-        if band.is_visible():
-            break
-        dashboard.wait_for_timeout(100)
-        x, y = dashboard.evaluate(place)
-        dashboard.mouse.move(x, y + 5)
-        dashboard.mouse.move(x, y)
-    expect(band).to_be_visible()
+    hover_until_shown(dashboard, "insertion_gain_figure", 100, band)
     expect(dashboard.get_by_text(level, exact=True)).to_be_visible()
 
 
 @pytest.mark.parametrize("width", [1024, 1440])
 def test_nothing_is_wider_than_the_window(open_dashboard, width):
     page = open_dashboard(width=width, height=768)
+    wait_until_at_rest(page)
     assert page.evaluate("() => document.scrollingElement.scrollWidth") <= width
     for name in ("insertion_gain_figure", "force_figure"):
         right = page.evaluate(

@@ -9,6 +9,7 @@ from playwright.sync_api import expect
 import trackig_core as tig
 from dashboard.figures import motion as figures_motion
 from dashboard.teaching.lessons import load_lessons, reveal
+from tests.browser.conftest import count_sent, resting_place, wait_until_at_rest
 from tests.browser.test_dashboard import box, choose, column, wait_for_levels
 
 pytestmark = pytest.mark.browser
@@ -32,17 +33,38 @@ def model(page, name, attribute):
 
 
 def set_model(page, name, attribute, value):
+    """Set a property of a model in the browser, once it has been drawn."""
+    page.wait_for_function(
+        """name => {
+            const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
+            return view != null && view.has_finished() && view.el.isConnected
+        }""",
+        arg=name,
+    )
     page.evaluate(
         "([name, attribute, value]) => { Bokeh.documents[0].get_model_by_name(name)[attribute] = value }",
         [name, attribute, value],
     )
 
 
+def wait_for_film(page, motion):
+    """Wait until the browser holds a film, and stands still."""
+    page.wait_for_function(
+        """wheel => {
+            const film = Bokeh.documents[0].get_model_by_name("film")
+            return film != null && Math.abs(film.data.wheel[40] - wheel) < 1e-3 && Bokeh.documents[0].is_idle
+        }""",
+        arg=float(1e6 * motion.wheel[40]),
+    )
+
+
 @pytest.mark.parametrize("frame", [0, 57, 300, 614])
-def test_the_browser_draws_the_film_s_own_frames(dashboard, frame):
+def test_the_browser_draws_the_film_s_own_frames(kept_dashboard, frame):
+    dashboard = kept_dashboard()
+    choose(dashboard, "Track of Table 1", "Booted block, low mass")
     look_at(dashboard, "Motion")
     motion = tig.film(OPENING)
-    model(dashboard, "film_slider", "value")
+    wait_for_film(dashboard, motion)
     set_model(dashboard, "film_slider", "value", 1000 * motion.time[frame])
     scale = column(dashboard, "film_facts", "scale")[0]
     height = column(dashboard, "film_rail", "y")
@@ -55,26 +77,29 @@ def test_the_browser_draws_the_film_s_own_frames(dashboard, frame):
     assert wheel == pytest.approx(motion.wheel[frame], abs=1e-6 * motion.step)
 
 
+NEXT_FRAMES = """count => new Promise(done => {
+    const wait = left => left == 0 ? done() : requestAnimationFrame(() => wait(left - 1))
+    wait(count)
+})"""
+"""Lets the browser paint some frames."""
+
+
 def test_the_film_plays_in_the_browser_alone_and_pauses(dashboard):
     look_at(dashboard, "Motion")
-    model(dashboard, "film_slider", "value")
-    dashboard.wait_for_timeout(1000)
-    dashboard.evaluate("""() => {
-        window.sent = 0
-        const send = WebSocket.prototype.send
-        WebSocket.prototype.send = function (...data) { window.sent += 1; return send.apply(this, data) }
-    }""")
-    play = dashboard.get_by_role("button", name="Play").first
-    play.click()
-    dashboard.wait_for_function("() => Bokeh.documents[0].get_model_by_name('film_slider').value > 10")
-    heights = [column(dashboard, "film_rail", "y")]
-    dashboard.wait_for_timeout(500)
-    heights.append(column(dashboard, "film_rail", "y"))
-    assert not np.array_equal(*heights)
+    wait_for_film(dashboard, tig.film(OPENING))
+    # the address bar is the last to follow
+    dashboard.wait_for_function("() => new URLSearchParams(location.search).get('tab') === 'learn'")
+    count_sent(dashboard)
+    moment = "Bokeh.documents[0].get_model_by_name('film_slider').value"
+    dashboard.get_by_role("button", name="Play").first.click()
+    dashboard.wait_for_function(f"() => {moment} > 10")
+    before, height = model(dashboard, "film_slider", "value"), column(dashboard, "film_rail", "y")
+    dashboard.wait_for_function(f"before => Math.abs({moment} - before) > 20", arg=before)
+    assert not np.array_equal(height, column(dashboard, "film_rail", "y"))
     assert dashboard.evaluate("() => window.sent") == 0
     dashboard.get_by_role("button", name="Pause").first.click()
     stands = model(dashboard, "film_slider", "value")
-    dashboard.wait_for_timeout(300)
+    dashboard.evaluate(NEXT_FRAMES, 30)
     assert model(dashboard, "film_slider", "value") == stands
 
 
@@ -82,11 +107,7 @@ def test_the_film_is_that_of_the_design_when_it_rests(dashboard):
     look_at(dashboard, "Motion")
     model(dashboard, "film", "name")
     choose(dashboard, "Track of Table 1", "Slab track")
-    expected = tig.film(tig.PRESETS["slab-track"])
-    dashboard.wait_for_function(
-        """wheel => Math.abs(Bokeh.documents[0].get_model_by_name("film").data.wheel[40] - wheel) < 1e-3""",
-        arg=float(1e6 * expected.wheel[40]),
-    )
+    wait_for_film(dashboard, tig.film(tig.PRESETS["slab-track"]))
     assert np.isnan(column(dashboard, "film_supports", "block")).all()
 
 
@@ -95,13 +116,7 @@ def test_a_click_or_a_drag_on_the_curve_chooses_the_frequency_of_the_shape(dashb
     model(dashboard, "pick_bands", "name")
     figure = """() => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("pick_bands_figure"))"""
     dashboard.evaluate(f"() => ({figure})().el.scrollIntoView()")
-    dashboard.wait_for_timeout(500)
-    x, y = dashboard.evaluate(
-        f"""() => {{
-            const view = ({figure})(), box = view.canvas_view.el.getBoundingClientRect()
-            return [box.x + view.frame.x_scale.compute(200), box.y + view.frame.bbox.top + 40]
-        }}"""
-    )
+    x, y = resting_place(dashboard, "pick_bands_figure", 200, 40)
     dashboard.mouse.click(x, y)
     said = dashboard.get_by_text(re.compile(r"At (19\d|20\d) Hz the wheel moves"))
     expect(said).to_be_visible()
@@ -133,8 +148,14 @@ def test_a_click_or_a_drag_on_the_curve_chooses_the_frequency_of_the_shape(dashb
     np.testing.assert_allclose(moved, turned, atol=1e-6 * np.abs(turned).max())
 
 
+def first_words(markdown):
+    """Return the first paragraph of a text as a page shows it."""
+    return re.sub(r"[*_]", "", markdown.split("\n\n")[0].replace("\n", " ").strip())
+
+
 @pytest.mark.parametrize("number", range(len(LESSONS)), ids=[lesson.file for lesson in LESSONS])
-def test_a_lesson_runs_and_reveals_what_the_solver_finds(dashboard, number):
+def test_a_lesson_runs_and_reveals_what_the_solver_finds(kept_dashboard, number):
+    dashboard = kept_dashboard()
     lesson = LESSONS[number]
     before, after = lesson.designs()
     revealed = reveal(lesson)
@@ -142,19 +163,21 @@ def test_a_lesson_runs_and_reveals_what_the_solver_finds(dashboard, number):
     look_at(dashboard, "Lessons")
     choose(dashboard, "Lesson", f"{number + 1}. {lesson.title}")
     expect(dashboard.get_by_text(lesson.question)).to_be_visible()
+    # what is to be revealed is there with the introduction, once it has been computed
+    expect(dashboard.get_by_text(first_words(revealed.introduction))).to_be_visible()
     dashboard.get_by_role("button", name="Reveal").click()
     expect(dashboard.get_by_text("Choose an answer first")).to_be_visible()
     dashboard.get_by_role("button", name="Set where it starts").click()
     wait_for_levels(dashboard, tig.solve(before).insertion_gain)
     dashboard.get_by_role("button", name="Move the slider for me").click()
     wait_for_levels(dashboard, tig.solve(after).insertion_gain)
+    wait_for_levels(dashboard, tig.solve(after).insertion_gain, source="lesson")
     np.testing.assert_allclose(column(dashboard, "lesson", "level"), tig.solve(after).insertion_gain)
     dashboard.get_by_role("radio", name=lesson.choices[revealed.right.index(True)].text, exact=True).check()
     dashboard.get_by_role("button", name="Reveal").click()
     expect(dashboard.get_by_text("Right.", exact=True)).to_be_visible()
     # the figures of the text, as computed here for the lesson's own two designs
-    words = re.sub(r"[*_]", "", revealed.reveal.split("\n\n")[0].replace("\n", " ").strip())
-    expect(dashboard.get_by_text(words)).to_be_visible()
+    expect(dashboard.get_by_text(first_words(revealed.reveal))).to_be_visible()
     for control in dashboard.get_by_role("slider").all():
         if after.two_stage and control.get_attribute("aria-label"):
             expect(control).to_be_enabled()
@@ -181,10 +204,11 @@ def test_lessons_leave_the_sliders_to_the_hand(dashboard):
     ],
 )
 @pytest.mark.parametrize("width", [1024, 1920])
-def test_every_subject_is_told_within_the_window(open_dashboard, subject, words, width):
-    page = open_dashboard(width=width, height=768)
+def test_every_subject_is_told_within_the_window(kept_dashboard, subject, words, width):
+    page = kept_dashboard(width=width, height=768)
     look_at(page, subject)
     expect(page.get_by_text(words)).to_be_visible()
+    wait_until_at_rest(page)
     assert page.evaluate("() => document.scrollingElement.scrollWidth") <= width
 
 

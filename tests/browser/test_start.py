@@ -16,8 +16,9 @@ def test_a_page_opened_while_kernels_are_compiled_shows_its_picture(
     with serve(port, tmp_path / "log.txt") as url:
         context = chromium.new_context()
         page = context.new_page()
+        page.set_default_timeout(180_000)
         page.goto(url)
-        wait_until_solved(page, timeout=90_000)
+        wait_until_solved(page, timeout=180_000)
         level = page.evaluate(
             "() => Array.from(Bokeh.documents[0].get_model_by_name('insertion_gain').data.level)"
         )
