@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from urllib.parse import urlencode
 
 import trackig_core as tig
-from dashboard.fields import INPUTS, NUMBERS, OPENING_PRESET, six_figures
+from dashboard.fields import FIELDS, INPUTS, NUMBERS, OPENING_PRESET, six_figures
 from dashboard.formats import name_text, quantity_text
 from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
 from dashboard.session.pins import free_colour, free_name
@@ -155,8 +155,10 @@ def _key_text(key):
 
 def _label(name):
     """Return what an input or a choice is called on the page, without its unit."""
+    if name in FIELDS:
+        return FIELDS[name].label
     label = DesignInputs.param[name].label if name in INPUTS else name.capitalize()
-    return label.split(",")[0].split(":")[0]
+    return label.split(":")[0]
 
 
 def _decoded(raw):
@@ -206,7 +208,7 @@ def _is_allowed(name, text, allowed, whose, problems):
 
 def _number(name, text, otherwise, whose, problems):
     """Return a number within its slider's range."""
-    low, high = DesignInputs.param[name].bounds
+    low, high = FIELDS[name].low, FIELDS[name].high
     if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
         problems.append(f"{whose}{_label(name)} is no number; {quantity_text(otherwise)} was taken.")
         return otherwise

@@ -8,6 +8,7 @@ import param
 
 import trackig_core as tig
 from dashboard.fields import (
+    FIELDS,
     INPUTS,
     NUMBERS,
     OPENING_PRESET,
@@ -85,9 +86,16 @@ def values_of(design, preset=None):
     return display_values(design) | ({} if preset is None else {"preset": preset})
 
 
-def _number(name, low, high, step, label):
-    opening = to_display(name, getattr(tig.PRESETS[OPENING_PRESET], name))
-    return param.Number(default=opening, bounds=(low, high), step=step, label=label)
+def _number(name):
+    """Return the parameter of a number, as the table of fields describes it."""
+    field = FIELDS[name]
+    return param.Number(
+        default=field.to_display(getattr(tig.PRESETS[OPENING_PRESET], name)),
+        bounds=(field.low, field.high),
+        step=field.step,
+        label=field.labelled,
+        doc=field.words,
+    )
 
 
 def preset_values(key):
@@ -116,19 +124,19 @@ class DesignInputs(param.Parameterized):
         label="Track of Table 1",
     )
     two_stage = param.Boolean(default=True, label="Two-stage: blocks in boots")
-    pad_stiffness = _number("pad_stiffness", 10, 2000, 1, "Pad stiffness, kN/mm")
-    pad_loss_factor = _number("pad_loss_factor", 0.01, 0.5, 0.01, "Pad loss factor")
-    block_mass = _number("block_mass", 10, 500, 1, "Block mass, kg")
-    boot_stiffness = _number("boot_stiffness", 2, 200, 0.5, "Boot stiffness, kN/mm")
-    boot_loss_factor = _number("boot_loss_factor", 0.01, 0.5, 0.01, "Boot loss factor")
-    fastener_spacing = _number("fastener_spacing", 0.2, 1.0, 0.01, "Fastener spacing, m")
+    pad_stiffness = _number("pad_stiffness")
+    pad_loss_factor = _number("pad_loss_factor")
+    block_mass = _number("block_mass")
+    boot_stiffness = _number("boot_stiffness")
+    boot_loss_factor = _number("boot_loss_factor")
+    fastener_spacing = _number("fastener_spacing")
     rail = param.Selector(
         default="60",
         objects={"60 (paper: 60 kg/m)" if key == "60" else key: key for key in tig.RAILS},
         label="Rail section",
     )
-    wheel_mass = _number("wheel_mass", 200, 1500, 10, "Unsprung wheel mass, kg")
-    contact_stiffness = _number("contact_stiffness", 200, 5000, 10, "Contact stiffness, kN/mm")
+    wheel_mass = _number("wheel_mass")
+    contact_stiffness = _number("contact_stiffness")
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
 
     _taking = False

@@ -22,13 +22,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import trackig_core as tig
-from dashboard.fields import NUMBERS, STIFFNESSES, to_display
+from dashboard.fields import FIELDS
 
 LONGEST = 120
 """Characters that one placeholder or claim may have [-]."""
-
-_UNITS = {"block_mass": "kg", "fastener_spacing": "m", "wheel_mass": "kg"}
-"""Units of the sliders that are no stiffness; loss factors have none."""
 
 _NUMBER = r"-?\d{1,6}(?:\.\d{1,6})?"
 _QUANTITY = r"(?P<name>[a-z_]{1,40})(?:\((?P<arguments>[a-z0-9., ]{0,60})\))?"
@@ -217,13 +214,13 @@ def _plain(unit, of):
 
 
 def _slider(name):
-    unit = "kN/mm" if name in STIFFNESSES else _UNITS.get(name, "")
+    field = FIELDS[name]
 
     def of(design):
         value = getattr(design, name)
-        return None if value is None else to_display(name, value)
+        return None if value is None else field.to_display(value)
 
-    return _plain(unit, of)
+    return _plain(field.unit, of)
 
 
 def _frequency(name):
@@ -312,6 +309,6 @@ _MAKERS = {
     "chain_upper": _chain(1),
     "supports": _plain("", tig.effective_supports),
     "stiffening": _stiffening,
-    **{name: _slider(name) for name in NUMBERS},
+    **{name: _slider(name) for name in FIELDS},
 }
 """What each name stands for: from the arguments that are written, a unit and a function of a design."""

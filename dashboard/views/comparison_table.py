@@ -7,7 +7,7 @@ import html
 
 import trackig_core as tig
 from dashboard import formats
-from dashboard.fields import NUMBERS, six_figures
+from dashboard.fields import FIELDS, six_figures
 from dashboard.session.inputs import DesignInputs, display_values
 from dashboard.views.components import swatch_svg
 
@@ -69,9 +69,9 @@ def _parameter_rows(results, base):
     every = [display_values(each.design) for each in results]
     own = display_values(base.design)
     yield "Stages", [("two" if values["two_stage"] else "one", "") for values in every]
-    for name in NUMBERS:
+    for name, field in FIELDS.items():
         yield (
-            DesignInputs.param[name].label,
+            field.labelled,
             [_parameter_cell(values.get(name), own.get(name)) for values in every],
         )
     yield DesignInputs.param.rail.label, [(values["rail"], "") for values in every]

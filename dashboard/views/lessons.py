@@ -136,7 +136,7 @@ class Lessons(Subject):
         revealed, _ = answer
         right = [choice.text for choice, true in zip(lesson.choices, revealed.right, strict=True) if true]
         good = chosen in right
-        words = "Right." if good else "Not so. The solver finds: " + plain("; ".join(right))
+        words = "Right." if good else "Not quite. The solver finds: " + plain("; ".join(right))
         self.verdict.param.update(object=words, severity="success" if good else "warning", visible=True)
         self.revealed.visible = True
 

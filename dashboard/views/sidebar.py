@@ -14,7 +14,7 @@ import panel_material_ui as pmui
 from bokeh.models import CustomJSTickFormatter
 from panel.viewable import Viewer
 
-from dashboard.fields import NUMBERS, SECOND_STAGE, STIFFNESSES, six_figures
+from dashboard.fields import FIELDS, six_figures
 from dashboard.formats import quantity_text
 from dashboard.session.inputs import display_values
 from dashboard.theme import GROUP_HEADING, HIDDEN_LABEL, SELECT_CSS, SLIDER
@@ -47,8 +47,8 @@ class QuantityControl(Viewer):
         super().__init__()
         self._inputs, self._name = inputs, name
         self._number = inputs.param[name]
-        self._log = name in STIFFNESSES
-        enabled = inputs.param.two_stage if name in SECOND_STAGE else None
+        self._log = FIELDS[name].logarithmic
+        enabled = inputs.param.two_stage if FIELDS[name].second_stage else None
         disabled = enabled.rx.not_() if enabled is not None else False
         self.slider = QuickSlider(
             label=self._number.label,
@@ -157,7 +157,7 @@ class Controls(Viewer):
     def __init__(self, inputs):
         super().__init__()
         self._inputs = inputs
-        self.quantities = {name: QuantityControl(inputs, name) for name in NUMBERS}
+        self.quantities = {name: QuantityControl(inputs, name) for name in FIELDS}
         # Material's select opens by mouse only; the browser's own obeys the keyboard
         self.preset = pn.widgets.Select.from_param(inputs.param.preset, **FULL_WIDTH)
         self.two_stage = pmui.Switch.from_param(inputs.param.two_stage, size="small", margin=(2, 12, 6, 16))

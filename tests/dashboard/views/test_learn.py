@@ -214,7 +214,7 @@ def test_each_lesson_asks_and_reveals(outcome, definition, inputs, number):
     for choice, right in zip(lesson.choices, revealed.right, strict=True):
         subject.answers.value = choice.text
         subject.reveal.clicks += 1
-        assert subject.verdict.object.startswith("Right." if right else "Not so.")
+        assert subject.verdict.object.startswith("Right." if right else "Not quite.")
     assert subject.revealed.visible
     assert subject.revealed.object == revealed.reveal
     assert not subject.broken.visible
