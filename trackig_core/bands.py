@@ -3,7 +3,7 @@
 Base-ten bands of IEC 61260-1:2014: exact mid-band frequencies (section 5.4), nominal
 frequencies (annex E) and band edges (section 5.5). Frequencies in Hz, levels in dB.
 
-The one rule: every band quantity in the package uses the arrays below, so that a band
+Every band quantity in the package uses the arrays below, so that a band
 means the same everywhere.
 """
 

@@ -1,4 +1,4 @@
-"""The door: golden results, the twin, the rigid track, any valid design, and the memory it takes."""
+"""Solving: golden results, closed form, the rigid track, any valid design, and the memory it takes."""
 
 import pickle
 import subprocess
@@ -50,21 +50,21 @@ def test_golden_energy_of_the_paper_run(golden, solved, preset):
 
 
 def test_the_run_is_its_own_z_transform(solved, preset):
-    """Every bin up to 500 Hz, energy and coherent, against the twin of the same discrete scheme."""
+    """Every bin up to 500 Hz, energy and coherent, against the same scheme in closed form."""
     solution = solved(preset)
     frequency = solution.spectrum.frequency[solution.spectrum.frequency <= 500]
-    twin = exact_spectrum(solution.design, frequency, 1e-4, Lattice(3, RING_BAYS, solution.grid.dt, 1))
+    exact = exact_spectrum(solution.design, frequency, 1e-4, Lattice(3, RING_BAYS, solution.grid.dt, 1))
     count = len(frequency)
-    assert in_decibels(solution.spectrum.energy[:count], twin.energy).max() < 1e-4
-    assert in_decibels(solution.spectrum.coherent_energy[:count], twin.coherent_energy).max() < 1e-3
+    assert in_decibels(solution.spectrum.energy[:count], exact.energy).max() < 1e-4
+    assert in_decibels(solution.spectrum.coherent_energy[:count], exact.coherent_energy).max() < 1e-3
 
 
 def test_a_coarser_run_with_second_order_memory_is_its_own_z_transform():
     grid = make_grid(BLOCK, time_step=1 / 32768)
     spectrum = force_spectrum(simulate(BLOCK, grid, memory_order=2))
     frequency = spectrum.frequency[spectrum.frequency <= 500]
-    twin = exact_spectrum(BLOCK, frequency, 1e-4, Lattice(3, RING_BAYS, grid.dt, 2))
-    assert in_decibels(spectrum.energy[: len(frequency)], twin.energy).max() < 1e-3
+    exact = exact_spectrum(BLOCK, frequency, 1e-4, Lattice(3, RING_BAYS, grid.dt, 2))
+    assert in_decibels(spectrum.energy[: len(frequency)], exact.energy).max() < 1e-3
 
 
 ordinary_designs = st.builds(
@@ -90,10 +90,10 @@ def test_any_ordinary_run_is_its_own_z_transform(design):
     # ring after the force as a whole has died down: a few lines are then less exact, no band is.
     if design.fastener_spacing <= 0.8:
         frequency = solution.spectrum.frequency[solution.spectrum.frequency <= 500]
-        twin = exact_spectrum(design, frequency, 1e-4, lattice)
-        assert in_decibels(solution.spectrum.energy[: len(frequency)], twin.energy).max() < 0.01
-    twin = exact_spectrum(design, np.arange(1, 11_400) * 0.05, 1e-4, lattice)
-    gain = tig.insertion_gain(twin, design, solution.natural_frequencies.loaded_track)
+        exact = exact_spectrum(design, frequency, 1e-4, lattice)
+        assert in_decibels(solution.spectrum.energy[: len(frequency)], exact.energy).max() < 0.01
+    exact = exact_spectrum(design, np.arange(1, 11_400) * 0.05, 1e-4, lattice)
+    gain = tig.insertion_gain(exact, design, solution.natural_frequencies.loaded_track)
     assert np.abs(solution.insertion_gain - gain.levels).max() < 0.01
 
 

@@ -5,7 +5,7 @@ Arrays and floats go in, arrays are changed in place; SI units. The update lines
 :mod:`trackig_core.time_domain.grid` shows which element lies where on the track,
 :mod:`trackig_core.time_domain.memory_layout` where in memory.
 
-The one rule: no objects, no I/O, and no globals but this file's own constants. Numba's disk cache notices
+No objects, no I/O, and no globals but this file's own constants. Numba's disk cache notices
 neither a changed global nor an edit in another file.
 """
 
@@ -337,7 +337,7 @@ def apply_fir(
     taps: RealArray,
     kept: RealArray,
 ) -> None:
-    """Sum the rows of a window, weighed by a filter.
+    """Sum the rows of a window, each times its coefficient of a filter.
 
     Parameters
     ----------

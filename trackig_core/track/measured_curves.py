@@ -3,7 +3,7 @@
 Hz, N/m; loss factors have no unit. Between points, values are straight lines over the logarithm of
 frequency; beyond the first and last point they stay as they are there.
 
-The one rule: a table that exists is sound. Every row is checked when the table is made, and an error
+A table that exists is sound. Every row is checked when the table is made, and an error
 names the row.
 """
 

@@ -1,4 +1,4 @@
-"""The twin against an independent package."""
+"""The frequency-domain solution against an independent package."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ def misfit(found, peer):
     return np.abs(20 * np.log10(np.abs(found / peer)))
 
 
-def test_the_fine_twin_is_the_peers_euler_rail(preset):
+def test_the_fine_lattice_is_the_peers_euler_rail(preset):
     """Within 0.03 dB to 250 Hz; above, what is left is the peer's rotary inertia (next test)."""
     peer = tig.peer_receptances()[preset]
     assert peer.frequency == pytest.approx(tig.BAND_CENTRES, rel=1e-6)
@@ -63,7 +63,7 @@ def test_three_elements_a_bay_are_near_and_twentyfour_nearer(preset):
 
 
 def test_shear_softens_the_rail_most_on_stiff_supports():
-    """The peer's Timoshenko rail: the twin leaves shear out."""
+    """The peer's Timoshenko rail: the frequency-domain solution leaves shear out."""
     softer = {
         name: 20 * np.log10(np.abs(peer.timoshenko / peer.euler))[:5].mean()
         for name, peer in tig.peer_receptances().items()

@@ -1,4 +1,4 @@
-"""Steady shapes: against the dense ring, the twin at its supports, and what a track must do."""
+"""Steady shapes against the dense ring, the receptance at supports, and what a track must do."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_every_element_is_that_of_the_dense_solution(design, lattice):
             assert shape.block is None
 
 
-def test_over_supports_the_shape_is_the_twins_receptance(preset):
+def test_over_supports_the_shape_is_the_receptance(preset):
     design, frequency = tig.PRESETS[preset], np.geomspace(1, 500, 60)
     shape = steady_shape(design, frequency, bays=4)
     expected = contact_force(design, frequency) * receptance(design, frequency, np.arange(-4, 5))

@@ -72,8 +72,8 @@ def test_light_damping_takes_longer_and_is_no_less_right(loss_factor):
 def test_other_definitions_of_insertion_gain_are_as_right(preset):
     design = tig.PRESETS[preset]
     choices = {"reference": "rigid", "summation": "coherent"}
-    run, twin = (tig.solve(design, each, **choices) for each in ("live", "exact"))
-    assert np.abs(run.insertion_gain - twin.insertion_gain).max() < PROMISE
+    run, exact = (tig.solve(design, each, **choices) for each in ("live", "exact"))
+    assert np.abs(run.insertion_gain - exact.insertion_gain).max() < PROMISE
 
 
 def test_it_costs_a_small_part_of_the_paper_run_and_says_what_it_chose(preset):
@@ -102,8 +102,8 @@ def test_the_run_is_the_z_transform_of_its_scheme_on_its_ring():
     grid, spectrum = solution.grid, solution.spectrum
     lattice = Lattice(bays=grid.bays, time_step=grid.dt, memory_order=adaptive_grid.MEMORY_ORDER)
     some = (spectrum.frequency > 10) & (spectrum.frequency < 100)
-    twin = exact_spectrum(BLOCK, spectrum.frequency[some], spectrum.step, lattice)
-    assert np.abs(10 * np.log10(spectrum.energy[some] / twin.energy)).max() < 0.02
+    exact = exact_spectrum(BLOCK, spectrum.frequency[some], spectrum.step, lattice)
+    assert np.abs(10 * np.log10(spectrum.energy[some] / exact.energy)).max() < 0.02
 
 
 def test_a_record_ends_when_nothing_more_comes_and_not_before():
