@@ -32,6 +32,7 @@ from trackig_core.analysis.rolland import PeerReceptance, peer_receptances
 from trackig_core.analysis.stiff_reference import StiffReferences, stiff_references
 from trackig_core.analysis.verification import Verification, verify
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
+from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
 from trackig_core.frequency_domain.floquet_waves import Lattice, receptance, track_decay_rate
 from trackig_core.frequency_domain.natural_frequencies import cut_on
@@ -52,12 +53,12 @@ from trackig_core.results import (
     InsertionGain,
     NaturalFrequencies,
     Solution,
+    SolveCancelled,
     TimeHistory,
 )
 from trackig_core.solver import compile_kernels, solve
 from trackig_core.study.studies import PinnedDesign, Study, StudyError, View
 from trackig_core.time_domain.grid import RunTooLargeError
-from trackig_core.time_domain.time_stepping import SolveCancelled
 from trackig_core.track.catalogue import PRESETS, RAILS
 from trackig_core.track.design import DesignError, Rail, TrackDesign
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
@@ -75,6 +76,7 @@ __all__ = [
     "RAILS",
     "Asymptote",
     "BandTableError",
+    "BatchSolution",
     "DampingCurve",
     "Departure",
     "DesignError",
@@ -131,6 +133,7 @@ __all__ = [
     "peer_receptances",
     "receptance",
     "solve",
+    "solve_many",
     "steady_shape",
     "stiff_references",
     "time_step_errors",

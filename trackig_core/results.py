@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from trackig_core.track.viscoelastic_law import Relaxation
 
 
+class SolveCancelled(Exception):  # noqa: N818  (it is no error: the caller asked for it)
+    """The caller cancelled the run."""
+
+
 @dataclass(frozen=True, eq=False)
 class TimeHistory:
     """Low-passed, decimated record of one run of the time-stepping solver.

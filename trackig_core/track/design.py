@@ -50,15 +50,18 @@ class DesignError(ValueError):
         The value that was given.
     allowed : str
         What may be given instead.
+    row : int or tuple of int or None
+        Place of the design among many; None when there is but one.
     """
 
-    def __init__(self, field, value, allowed):
-        self.field, self.value, self.allowed = field, value, allowed
-        super().__init__(f"{field} = {brief(value)}: give {allowed}")
+    def __init__(self, field, value, allowed, row=None):
+        self.field, self.value, self.allowed, self.row = field, value, allowed, row
+        message = f"{field} = {brief(value)}: give {allowed}"
+        super().__init__(message if row is None else f"row {row}: {message}")
 
     def __reduce__(self):
         """Let the error pass between processes."""
-        return type(self), (self.field, self.value, self.allowed)
+        return type(self), (self.field, self.value, self.allowed, self.row)
 
 
 def check_number(field, value):
