@@ -108,7 +108,9 @@ class BatchSolution:
         check_choice("reference", reference, REFERENCES)
         check_choice("summation", summation, SUMMATIONS)
         kind = SUMMATIONS.index(summation)
-        levels = decibels(self.energy_ratio[..., kind, :].astype(float))
+        levels = self.energy_ratio[..., kind, :].astype(float)
+        np.log10(levels, out=levels)  # in place: a million designs take 168 MB
+        levels *= 10
         if reference == "line":
             levels -= decibels(self.line_ratio[..., kind, None])
         return levels
