@@ -18,13 +18,13 @@ from importlib.metadata import version
 from trackig_core import analysis, levels, results, study
 from trackig_core.analysis import receptance, verify
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
+from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.levels import SourceSpectrum, Specification, insertion_gain
-from trackig_core.results import InsertionGain, NaturalFrequencies
+from trackig_core.results import InsertionGain, NaturalFrequencies, SolveCancelled
 from trackig_core.solution import Solution
 from trackig_core.solver import compile_kernels, solve
 from trackig_core.study import PinnedDesign, Study, View
 from trackig_core.time_domain.grid import RunTooLargeError
-from trackig_core.time_domain.time_stepping import SolveCancelled
 from trackig_core.track.catalogue import PRESETS
 from trackig_core.track.design import TrackDesign
 from trackig_core.track.fields import DesignError
@@ -39,6 +39,7 @@ __all__ = [
     "BAND_LABELS",
     "PRESETS",
     "RAILS",
+    "BatchSolution",
     "DesignError",
     "InsertionGain",
     "LossFactorCurve",
@@ -61,6 +62,7 @@ __all__ = [
     "levels",
     "receptance",
     "solve",
+    "solve_many",
     "study",
     "verify",
 ]

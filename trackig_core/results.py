@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 __all__ = ["ForceSpectrum", "InsertionGain", "NaturalFrequencies", "TimeHistory"]
 
 
+class SolveCancelled(Exception):  # noqa: N818  (it is no error: the caller asked for it)
+    """The caller cancelled the run."""
+
+
 @dataclass(frozen=True, eq=False)
 class TimeHistory:
     """Low-passed, decimated record of one run of the time-stepping solver.

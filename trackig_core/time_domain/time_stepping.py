@@ -14,7 +14,7 @@ import numpy as np
 
 from trackig_core.arrays import IntArray, RealArray
 from trackig_core.frequency_domain.track_model import Track, track_model
-from trackig_core.results import TimeHistory
+from trackig_core.results import SolveCancelled, TimeHistory
 from trackig_core.time_domain import kernels
 from trackig_core.time_domain.decimation import NO_COMB, RECORD_RATE, low_pass
 from trackig_core.time_domain.grid import LONGEST_RECORD, Grid
@@ -35,10 +35,6 @@ LEAST_BLOCK = 16
 BLOCK_BYTES = 400_000
 """Rows of the record per call of the kernel [bytes]: they stay in the second-level cache until they are
 filtered; ``cancelled`` is asked every few milliseconds."""
-
-
-class SolveCancelled(Exception):  # noqa: N818  (it is no error: the caller asked for it)
-    """The caller cancelled the run."""
 
 
 class Ending(Protocol):

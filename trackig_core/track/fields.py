@@ -67,15 +67,20 @@ class DesignError(ValueError):
         The value that was given.
     allowed : str
         What may be given instead.
+    row : int or tuple of int or None
+        Place of the design among many; None when there is but one.
     """
 
-    def __init__(self, field: str, value: object, allowed: str) -> None:
-        self.field, self.value, self.allowed = field, value, allowed
-        super().__init__(f"{field} = {brief(value)}: give {allowed}")
+    def __init__(
+        self, field: str, value: object, allowed: str, row: int | tuple[int, ...] | None = None
+    ) -> None:
+        self.field, self.value, self.allowed, self.row = field, value, allowed, row
+        message = f"{field} = {brief(value)}: give {allowed}"
+        super().__init__(message if row is None else f"row {row}: {message}")
 
-    def __reduce__(self) -> tuple[type, tuple[str, object, str]]:
+    def __reduce__(self) -> tuple[type, tuple[str, object, str, int | tuple[int, ...] | None]]:
         """Let the error pass between processes."""
-        return type(self), (self.field, self.value, self.allowed)
+        return type(self), (self.field, self.value, self.allowed, self.row)
 
 
 def check_number(field: str, value: object) -> float:

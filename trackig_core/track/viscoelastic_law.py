@@ -14,7 +14,7 @@ stiffness is met as well as three terms can.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
 from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.track.damping_table import interpolated_terms
 from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 
@@ -162,13 +163,8 @@ def relaxation(stiffness: float | StiffnessCurve, loss_factor: float | LossFacto
     """
     if isinstance(stiffness, StiffnessCurve):
         return _fit_stiffness(stiffness)
-    shape = fit_loss_factor(loss_factor)
-    return Relaxation(
-        stiffness * shape.instantaneous,
-        tuple(stiffness * strength for strength in shape.strengths),
-        shape.times,
-        shape.worst_error,
-    )
+    measured = isinstance(loss_factor, LossFactorCurve)
+    return _scaled(fit_loss_factor(loss_factor) if measured else constant_loss_factor(loss_factor), stiffness)
 
 
 def laws(design: TrackDesign) -> tuple[Relaxation, Relaxation | None]:
@@ -193,6 +189,28 @@ def laws(design: TrackDesign) -> tuple[Relaxation, Relaxation | None]:
 
 
 @lru_cache(maxsize=256)
+def constant_loss_factor(loss_factor: float) -> Relaxation:
+    """Return the relaxation law of a constant loss factor, from the table of fits.
+
+    Parameters
+    ----------
+    loss_factor : float
+        Loss factor from 5 to 500 Hz [-], from zero to one.
+
+    Returns
+    -------
+    Relaxation
+        The law, for a stiffness of 1 N/m at 50 Hz; slowest term first. Without memory if the loss factor is
+        below :data:`NEGLIGIBLE`.
+    """
+    if loss_factor < NEGLIGIBLE:
+        return Relaxation(1.0, (), (), 0.0)
+    strengths, times, worst_error = interpolated_terms(loss_factor)
+    law = Relaxation(0.0, tuple(strengths.tolist()), tuple(times.tolist()), float(worst_error))
+    return replace(law, instantaneous=1.0 - law.stiffness(REFERENCE_FREQUENCY))
+
+
+@lru_cache(maxsize=256)
 def fit_loss_factor(loss_factor: float | LossFactorCurve) -> Relaxation:
     """Fit three relaxation terms to a loss factor by least squares.
 
@@ -201,7 +219,7 @@ def fit_loss_factor(loss_factor: float | LossFactorCurve) -> Relaxation:
     Parameters
     ----------
     loss_factor : float or LossFactorCurve
-        Target loss factor [-], zero or more.
+        Target loss factor [-], greater than zero.
 
     Returns
     -------
@@ -210,8 +228,6 @@ def fit_loss_factor(loss_factor: float | LossFactorCurve) -> Relaxation:
     """
     if isinstance(loss_factor, LossFactorCurve):
         target = loss_factor.loss_factor(FIT_FREQUENCIES)
-    elif loss_factor < NEGLIGIBLE:
-        return Relaxation(1.0, (), (), 0.0)
     else:
         target = np.full_like(FIT_FREQUENCIES, loss_factor)
     return _scaled(_fit(lambda law: law.loss_factor(FIT_FREQUENCIES) / target - 1, target.mean()), 1.0)

@@ -1,0 +1,699 @@
+"""Compiled frequency-domain solution of whole designs: natural frequencies, refined spectrum, bands.
+
+The infinite track in continuous time, three elements a bay: what
+:mod:`trackig_core.frequency_domain.floquet_waves`, :mod:`trackig_core.frequency_domain.refinement`,
+:mod:`trackig_core.frequency_domain.natural_frequencies` and :mod:`trackig_core.levels.insertion_gain` do for
+one design in Python, here in one call per row of designs. SI units and Hz. Source of the model: the paper
+(see :mod:`trackig_core.track.design`).
+
+Arrays and floats only; no objects, no I/O, and no globals but this file's own constants: Numba's disk cache
+notices neither a changed global nor an edit in another file. The loop over frequencies is written in real
+numbers and without branches, so that it is compiled to vector instructions.
+
+A track is a row of :data:`COLUMNS` numbers, a pad's or boot's law seven of them: instantaneous stiffness,
+three strengths [N/m], three times [s].
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+PAD, BOOT, BLOCK_MASS, BENDING, ELEMENT_MASS, WHEEL_MASS, CONTACT = 0, 7, 14, 15, 16, 17, 18
+COLUMNS = 19
+"""Columns of a track: pad law, boot law, block mass [kg] (0: single-stage), EI/dx^3 [N/m], m' dx [kg], wheel
+mass [kg], contact stiffness [N/m]."""
+
+ELEMENTS_PER_BAY = 3
+"""Rail elements per bay [-]; the closed form below is written out for three."""
+
+LOADED_TRACK, COUPLED_BLOCK, WHEEL_ON_RIGID_BLOCKS, BLOCK_ON_BOOT, CUT_ON = 0, 1, 2, 3, 4
+FREQUENCIES = 6
+"""Columns of natural frequencies [Hz]; the cut-on pair takes two."""
+
+STRAIGHTNESS = 0.05
+"""Bend of a refined spectrum between neighbouring frequencies that is left alone [dB]."""
+
+MOST_HALVINGS = 40
+"""Halvings of an interval after which a peak is taken as resolved [-]."""
+
+WIDEST_STEP = 3.0
+"""How much wider an interval may be than its neighbour [-]: halved intervals differ by factors of two."""
+
+MOST_FREQUENCIES = 20_000
+"""Frequencies after which a spectrum is refined no further [-]."""
+
+CAPACITY = 2 * MOST_FREQUENCIES
+"""Frequencies for which a workspace has room [-]: one more halving of every interval."""
+
+MARGIN = 1e-9
+"""Relative margin around a bracket, so that a spring without memory has one too [-]."""
+
+EDGE = 1e-5
+"""Relative distance from a frequency at which the rail's receptance has no bound, within which it drowns in
+rounding [-]."""
+
+STILL = 1e-7
+"""Decay from bay to bay below which a wave counts as running [-]: well above rounding."""
+
+PAD_ON_RAIL, PAIR_LOWER, PAIR_UPPER, BOOT_ON_BLOCK, BETWEEN_SPRINGS, SURPLUS, BALANCE = 0, 1, 2, 3, 4, 5, 6
+"""Equations whose roots are natural frequencies."""
+
+
+@njit(nogil=True, cache=True, inline="always", error_model="numpy")
+def square_root(re, im):
+    """Return the square root of a complex number that lies in the right half plane, as two floats."""
+    larger = math.sqrt(0.5 * (math.sqrt(re * re + im * im) + abs(re)))
+    smaller = 0.5 * abs(im) / (larger + 1e-300)
+    return (
+        larger if re >= 0.0 else smaller,
+        math.copysign(smaller if re >= 0.0 else larger, im),
+    )
+
+
+@njit(nogil=True, cache=True, inline="always", error_model="numpy")
+def bay_waves(q, re, im):
+    """Solve the supported rail exactly: two waves that decay from bay to bay.
+
+    The derivation is that of :func:`trackig_core.frequency_domain.kernels.bay_waves`. With three elements a
+    bay its Chebyshev polynomials of 1 +- r/2 multiply out to polynomials of q = r^2: with s the support's
+    stiffness over EI/dx^3, the receptance over y - 2 = w is
+
+        ((3 - q)(9 - q) + 4 w) / (w^2 - (12 q - 4 s) w + (9 - q)(s (3 - q) - q (9 - q)))
+
+    Parameters
+    ----------
+    q : float
+        m' dx w^2 / (EI/dx^3) [-].
+    re, im : float
+        Dynamic stiffness of a support over EI/dx^3 [-].
+
+    Returns
+    -------
+    tuple of float (8,)
+        Real and imaginary parts: factor of the first and the second wave from bay to bay [-], of magnitude up
+        to one; share of the first and the second wave in the point receptance, times EI/dx^3 [-].
+    """
+    still = (3.0 - q) * (9.0 - q)
+    half_re, half_im = 6.0 * q - 2.0 * re, -2.0 * im
+    product_re, product_im = (9.0 - q) * (re * (3.0 - q) - q * (9.0 - q)), still * im
+    root_re, root_im = square_root(
+        half_re * half_re - half_im * half_im - product_re, 2.0 * half_re * half_im - product_im
+    )
+    # the larger root by addition, the smaller from their product: neither cancels
+    sign = -1.0 if root_re * half_re + root_im * half_im < 0.0 else 1.0
+    root_re, root_im = sign * root_re, sign * root_im
+    one_re, one_im = half_re + root_re, half_im + root_im
+    scale = 1.0 / (one_re * one_re + one_im * one_im)
+    two_re = (product_re * one_re + product_im * one_im) * scale
+    two_im = (product_im * one_re - product_re * one_im) * scale
+    # share of either wave: (still + 4 w) / (-+ 2 root)
+    scale = 0.5 / (root_re * root_re + root_im * root_im)
+    root_re, root_im = root_re * scale, -root_im * scale
+    m1_re, m1_im, a1_re, a1_im = wave(one_re, one_im, -still - 4.0 * one_re, -4.0 * one_im, root_re, root_im)
+    m2_re, m2_im, a2_re, a2_im = wave(two_re, two_im, still + 4.0 * two_re, 4.0 * two_im, root_re, root_im)
+    return m1_re, m1_im, m2_re, m2_im, a1_re, a1_im, a2_re, a2_im
+
+
+@njit(nogil=True, cache=True, inline="always", error_model="numpy")
+def wave(re, im, share_re, share_im, root_re, root_im):
+    """Return factor from bay to bay and share in the receptance of the wave of w = y - 2, as four floats."""
+    half_re, half_im = square_root(
+        re * (1.0 + 0.25 * re) - 0.25 * im * im, im * (1.0 + 0.25 * re) + 0.25 * re * im
+    )
+    mean_re, mean_im = 1.0 + 0.5 * re, 0.5 * im
+    sign = -1.0 if half_re * mean_re + half_im * mean_im < 0.0 else 1.0
+    half_re, half_im = sign * half_re, sign * half_im
+    factor_re, factor_im = mean_re + half_re, mean_im + half_im
+    scale = 1.0 / (factor_re * factor_re + factor_im * factor_im)
+    # share * root / (2 half)
+    amplitude_re = share_re * root_re - share_im * root_im
+    amplitude_im = share_re * root_im + share_im * root_re
+    inverse = 0.5 / (half_re * half_re + half_im * half_im)
+    return (
+        factor_re * scale,
+        -factor_im * scale,
+        (amplitude_re * half_re + amplitude_im * half_im) * inverse,
+        (amplitude_im * half_re - amplitude_re * half_im) * inverse,
+    )
+
+
+@njit(nogil=True, cache=True, inline="always", error_model="numpy")
+def two_sided(re, im):
+    """Return the real and imaginary part of (1 + p)/(1 - p)."""
+    scale = 1.0 / ((1.0 - re) * (1.0 - re) + im * im)
+    return (1.0 - re * re - im * im) * scale, 2.0 * im * scale
+
+
+@njit(nogil=True, cache=True, error_model="numpy", fastmath={"contract"})
+def force_energy(track, frequency, count, energy, coherent):
+    """Compute the energy of the force into the ground per unit step of roughness.
+
+    Parameters
+    ----------
+    track : numpy.ndarray (19,)
+        The track.
+    frequency : numpy.ndarray (capacity,)
+        Frequencies, of which the first ``count`` are solved [Hz].
+    count : int
+        How many.
+    energy, coherent : numpy.ndarray (capacity,)
+        Filled: squared force summed over the supports, and square of the summed force [N2 s2/m2].
+    """
+    k, k1, k2, k3, t1, t2, t3 = track[0], track[1], track[2], track[3], track[4], track[5], track[6]
+    g, g1, g2, g3, u1, u2, u3 = track[7], track[8], track[9], track[10], track[11], track[12], track[13]
+    block, bending, element_mass = track[BLOCK_MASS], track[BENDING], track[ELEMENT_MASS]
+    wheel, compliance = track[WHEEL_MASS], 1.0 / track[CONTACT]
+    two_stage = block > 0.0
+    for i in range(count):
+        angular = 2.0 * math.pi * frequency[i]
+        squared = angular * angular
+        # K = k_inf - sum k_j / (1 + i w t_j)
+        x1, x2, x3 = angular * t1, angular * t2, angular * t3
+        y1, y2, y3 = k1 / (1.0 + x1 * x1), k2 / (1.0 + x2 * x2), k3 / (1.0 + x3 * x3)
+        pad_re, pad_im = k - y1 - y2 - y3, x1 * y1 + x2 * y2 + x3 * y3
+        x1, x2, x3 = angular * u1, angular * u2, angular * u3
+        y1, y2, y3 = g1 / (1.0 + x1 * x1), g2 / (1.0 + x2 * x2), g3 / (1.0 + x3 * x3)
+        boot_re, boot_im = g - y1 - y2 - y3, x1 * y1 + x2 * y2 + x3 * y3
+        # pad (boot - m w^2) / (pad + boot - m w^2) and pad boot / (pad + boot - m w^2)
+        below = boot_re - block * squared
+        sum_re, sum_im = pad_re + below, pad_im + boot_im
+        scale = 1.0 / (sum_re * sum_re + sum_im * sum_im)
+        over_re, over_im = (
+            (pad_re * sum_re + pad_im * sum_im) * scale,
+            (pad_im * sum_re - pad_re * sum_im) * scale,
+        )
+        support_re = over_re * below - over_im * boot_im if two_stage else pad_re
+        support_im = over_re * boot_im + over_im * below if two_stage else pad_im
+        passed_re = over_re * boot_re - over_im * boot_im if two_stage else pad_re
+        passed_im = over_re * boot_im + over_im * boot_re if two_stage else pad_im
+
+        q = element_mass * squared / bending
+        s_re, s_im = support_re / bending, support_im / bending
+        m1_re, m1_im, m2_re, m2_im, a1_re, a1_im, a2_re, a2_im = bay_waves(q, s_re, s_im)
+        contact_re = compliance + (a1_re + a2_re) / bending - 1.0 / (wheel * squared)
+        contact_im = (a1_im + a2_im) / bending
+        per_receptance = (passed_re * passed_re + passed_im * passed_im) / (
+            (contact_re * contact_re + contact_im * contact_im) * squared * bending * bending
+        )
+        # squared displacements summed over all supports: three geometric series
+        n1, n2 = m1_re * m1_re + m1_im * m1_im, m2_re * m2_re + m2_im * m2_im
+        both_re, both_im = two_sided(m1_re * m2_re + m1_im * m2_im, m1_im * m2_re - m1_re * m2_im)
+        pair_re, pair_im = a1_re * a2_re + a1_im * a2_im, a1_im * a2_re - a1_re * a2_im
+        energy[i] = per_receptance * (
+            (a1_re * a1_re + a1_im * a1_im) * (1.0 + n1) / (1.0 - n1)
+            + (a2_re * a2_re + a2_im * a2_im) * (1.0 + n2) / (1.0 - n2)
+            + 2.0 * (pair_re * both_re - pair_im * both_im)
+        )
+        # displacements summed: the receptance to equal forces over all supports
+        low_re, low_im = s_re * (3.0 - q) - q * (9.0 - q), s_im * (3.0 - q)
+        coherent[i] = per_receptance * (3.0 - q) * (3.0 - q) / (low_re * low_re + low_im * low_im)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def spring(track, law, frequency):
+    """Return Re K of the pad's or boot's law, which begins at a column of the track, at a frequency [N/m]."""
+    angular = 2.0 * math.pi * frequency
+    stiffness = track[law]
+    for term in range(1, 4):
+        stiffness -= track[law + term] / (1.0 + (angular * track[law + 3 + term]) ** 2)
+    return stiffness
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def support(track, frequency):
+    """Return the stiffness of a support without its loss, block included, at a frequency [N/m]."""
+    pad = spring(track, PAD, frequency)
+    if track[BLOCK_MASS] == 0.0:
+        return pad
+    below = spring(track, BOOT, frequency) - track[BLOCK_MASS] * (2.0 * math.pi * frequency) ** 2
+    return pad * below / (pad + below)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def oscillator(kind, pad, boot, rail_mass, block_mass):
+    """Return the frequency of masses on springs of given stiffnesses [Hz]."""
+    if kind == PAD_ON_RAIL:
+        squared = pad / rail_mass
+    elif kind == BOOT_ON_BLOCK:
+        squared = boot / block_mass
+    elif kind == BETWEEN_SPRINGS:
+        squared = (pad + boot) / block_mass
+    else:
+        # the two roots of (k_p - m_r x)(k_p + k_b - m_b x) = k_p^2, x = w^2
+        upper, lower = pad / rail_mass, (pad + boot) / block_mass
+        larger = 0.5 * (upper + lower) + math.sqrt(0.25 * (upper - lower) ** 2 + upper * pad / block_mass)
+        # the smaller from their product, which does not cancel
+        squared = larger if kind == PAIR_UPPER else upper * boot / block_mass / larger
+    return math.sqrt(squared) / (2.0 * math.pi)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def lossless_waves(track, frequency):
+    """Return point receptance [m/N] and largest squared factor from bay to bay [-], the loss taken out."""
+    q = track[ELEMENT_MASS] * (2.0 * math.pi * frequency) ** 2 / track[BENDING]
+    waves = bay_waves(q, support(track, frequency) / track[BENDING], 0.0)
+    largest = max(waves[0] ** 2 + waves[1] ** 2, waves[2] ** 2 + waves[3] ** 2)
+    return (waves[4] + waves[6]) / track[BENDING], largest
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def residual(kind, track, frequency):
+    """Return what vanishes at a natural frequency.
+
+    Parameters
+    ----------
+    kind : int
+        Which equation: :data:`SURPLUS` of the rail's compliance over the support's [m/N] (all bays move as
+        one), :data:`BALANCE` of receptances in the contact [m/N] (loaded track), or masses on springs [Hz].
+    track : numpy.ndarray (19,)
+        The track.
+    frequency : float
+        Frequency [Hz].
+
+    Returns
+    -------
+    float
+        The residual.
+    """
+    squared = (2.0 * math.pi * frequency) ** 2
+    if kind == SURPLUS:
+        q = track[ELEMENT_MASS] * squared / track[BENDING]
+        return (3.0 - q) / (q * (9.0 - q) * track[BENDING]) - 1.0 / support(track, frequency)
+    if kind == BALANCE:
+        receptance = lossless_waves(track, frequency)[0]
+        return 1.0 / track[CONTACT] + receptance - 1.0 / (track[WHEEL_MASS] * squared)
+    return frequency - oscillator(
+        kind,
+        spring(track, PAD, frequency),
+        spring(track, BOOT, frequency),
+        ELEMENTS_PER_BAY * track[ELEMENT_MASS],
+        track[BLOCK_MASS],
+    )
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def root_between(kind, track, low, high, absolute, relative):
+    """Return the root of a residual in a bracket by Brent's method, or NaN if there is no change of sign.
+
+    Parameters
+    ----------
+    kind : int
+        Which equation, see :func:`residual`.
+    track : numpy.ndarray (19,)
+        The track.
+    low, high : float
+        Bracket [Hz].
+    absolute, relative : float
+        Tolerances [Hz] and [-].
+
+    Returns
+    -------
+    float
+        The root [Hz].
+    """
+    before = other = step = last = math.nan
+    f_before = f_other = math.nan
+    now = low
+    for turn in range(102):
+        f_now = residual(kind, track, now)  # the only call: each one is compiled anew into its caller
+        if turn == 0:
+            if f_now == 0.0:
+                return now
+            before, f_before = now, f_now
+            now = high
+            continue
+        if turn == 1 and (f_before < 0.0) == (f_now < 0.0):
+            return now if f_now == 0.0 else math.nan
+        if turn == 1 or (f_before < 0.0) != (f_now < 0.0):
+            other, f_other = before, f_before
+            step = last = now - before
+        if abs(f_other) < abs(f_now):
+            before, now, other = now, other, now
+            f_before, f_now, f_other = f_now, f_other, f_now
+        tolerance = 0.5 * (absolute + relative * abs(now))
+        half = 0.5 * (other - now)
+        if f_now == 0.0 or abs(half) < tolerance:
+            return now
+        trial = math.inf
+        if abs(step) > tolerance and abs(f_now) < abs(f_before):
+            if before == other:  # secant
+                trial = -f_now * (now - before) / (f_now - f_before)
+            else:  # inverse quadratic
+                slope_before = (f_before - f_now) / (before - now)
+                slope_other = (f_other - f_now) / (other - now)
+                trial = (
+                    -f_now
+                    * (f_other * slope_other - f_before * slope_before)
+                    / (slope_other * slope_before * (f_other - f_before))
+                )
+        if 2.0 * abs(trial) < min(abs(step), 3.0 * abs(half) - tolerance):
+            step, last = last, trial
+        else:
+            step = last = half
+        before, f_before = now, f_now
+        if abs(last) > tolerance:
+            now += last
+        else:
+            now += tolerance if half > 0.0 else -tolerance
+    return now
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def mode(kind, track):
+    """Return the frequency of masses on springs, consistent with the springs' stiffness there [Hz].
+
+    It is bracketed by the frequencies with static and with instantaneous stiffnesses: relaxation stiffens.
+    """
+    rail_mass, block_mass = ELEMENTS_PER_BAY * track[ELEMENT_MASS], track[BLOCK_MASS]
+    low = oscillator(kind, spring(track, PAD, 0.0), spring(track, BOOT, 0.0), rail_mass, block_mass)
+    high = oscillator(kind, track[PAD], track[BOOT], rail_mass, block_mass)
+    return root_between(kind, track, low * (1.0 - MARGIN), high * (1.0 + MARGIN), 1e-9, 9e-16)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def dies_away(track, frequency):
+    """Return whether both waves decay from bay to bay, the loss taken out."""
+    return math.sqrt(lossless_waves(track, frequency)[1]) < 1.0 - STILL
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def waves_begin(track, straight_rail):
+    """Return the lowest frequency at which waves run along the track [Hz].
+
+    On most tracks all bays then move as one; on stiff supports far apart shorter waves begin before.
+    ``straight_rail`` is the same frequency for a rail that does not bend between supports [Hz].
+    """
+    # the rail's first own wave that repeats in every bay: q = 9
+    own = 3.0 * math.sqrt(track[BENDING] / track[ELEMENT_MASS]) / (2.0 * math.pi)
+    top = min(straight_rail * (1.0 + MARGIN), own * (1.0 - EDGE))
+    as_one = root_between(SURPLUS, track, 1e-3 * top, top, 1e-12, 1e-14)
+    if dies_away(track, as_one * (1.0 - EDGE)):
+        return as_one
+    low, interval = 1e-3 * as_one, as_one * (1.0 - EDGE) - 1e-3 * as_one
+    for _ in range(100):
+        interval *= 0.5
+        if dies_away(track, low + interval):
+            low += interval
+        if interval < 1e-9 * low:
+            break
+    return low
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def loaded_track(track, straight_rail):
+    """Return the bound mode of the wheel on the supported rail [Hz]; see :func:`waves_begin`."""
+    begin = waves_begin(track, straight_rail)
+    top = begin * (1.0 - EDGE)
+    if not residual(BALANCE, track, top) > 0.0:  # its mode cannot be distinguished from the cut-on
+        return begin
+    bottom = 0.1 * begin
+    while residual(BALANCE, track, bottom) >= 0.0:
+        bottom *= 0.1
+    return root_between(BALANCE, track, bottom, top, 1e-9, 9e-16)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def natural_frequencies(track, found, everything):
+    """Find the natural frequencies of a track.
+
+    Parameters
+    ----------
+    track : numpy.ndarray (19,)
+        The track.
+    found : numpy.ndarray (6,)
+        Filled: loaded track, coupled block, wheel on rigid blocks, block on boot, cut-on pair [Hz]; NaN for
+        what a single-stage track does not have.
+    everything : bool
+        Whether all are wanted; else loaded track and coupled block only, the lower cut-on on the way.
+    """
+    two_stage = track[BLOCK_MASS] > 0.0
+    rigid_blocks = track.copy()
+    rigid_blocks[BLOCK_MASS] = 0.0
+    modes = np.full(5, math.nan)
+    for kind in range(5):
+        if kind == PAD_ON_RAIL:
+            wanted = everything or not two_stage
+        else:
+            wanted = two_stage and (everything or kind in (PAIR_LOWER, BETWEEN_SPRINGS))
+        if wanted:
+            modes[kind] = mode(kind, track)
+    found[COUPLED_BLOCK], found[BLOCK_ON_BOOT] = modes[BETWEEN_SPRINGS], modes[BOOT_ON_BLOCK]
+    found[CUT_ON] = modes[PAIR_LOWER if two_stage else PAD_ON_RAIL]
+    found[CUT_ON + 1] = modes[PAIR_UPPER]
+    found[LOADED_TRACK] = found[WHEEL_ON_RIGID_BLOCKS] = math.nan
+    tracks = (track, rigid_blocks)
+    for stage in range(2 if two_stage and everything else 1):
+        straight_rail = found[CUT_ON] if stage == 0 else modes[PAD_ON_RAIL]
+        found[2 * stage] = loaded_track(tracks[stage], straight_rail)
+    if not two_stage:
+        found[WHEEL_ON_RIGID_BLOCKS] = found[LOADED_TRACK]
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def first_axis(loaded, edges, per_band, line_fraction, frequency):
+    """Fill in the frequencies from which a spectrum is refined.
+
+    Parameters
+    ----------
+    loaded : float
+        Loaded-track frequency [Hz].
+    edges : numpy.ndarray (22,)
+        Edges of the bands [Hz].
+    per_band : int
+        Intervals per band [-].
+    line_fraction : float
+        Where the line is anchored, in parts of the loaded-track frequency [-].
+    frequency : numpy.ndarray (capacity,)
+        Filled [Hz]: the anchor and steps up from it if it lies below the bands; every band edge.
+
+    Returns
+    -------
+    count : int
+        How many.
+    bands_begin : int
+        Place of the first band edge.
+    """
+    anchor = line_fraction * loaded
+    count = 0
+    if anchor < edges[0]:
+        below = per_band - 1
+        ratio = (edges[0] / anchor) ** (1.0 / below)
+        frequency[0] = anchor
+        for i in range(1, below):
+            frequency[i] = anchor * ratio**i
+        count = below
+    bands_begin = count
+    for band in range(edges.size - 1):
+        ratio = (edges[band + 1] / edges[band]) ** (1.0 / per_band)
+        frequency[count] = edges[band]
+        for i in range(1, per_band):
+            frequency[count + i] = frequency[count + i - 1] * ratio
+        count += per_band
+    frequency[count] = edges[-1]
+    return count + 1, bands_begin
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def refine(track, count, axis, straight, spare, spare_straight):
+    """Halve intervals until a spectrum shows every peak; see :mod:`trackig_core.frequency_domain.refinement`.
+
+    Parameters
+    ----------
+    track : numpy.ndarray (19,)
+        The track.
+    count : int
+        Frequencies to begin with.
+    axis : numpy.ndarray (3, capacity)
+        Frequency [Hz], energy and coherent energy per unit step [N2 s2/m2]; the first ``count`` frequencies
+        are given, everything else is filled in.
+    straight : numpy.ndarray of bool (capacity,)
+        Workspace: whether an interval needs no halving.
+    spare : numpy.ndarray (3, capacity)
+        Workspace.
+    spare_straight : numpy.ndarray of bool (capacity,)
+        Workspace.
+
+    Returns
+    -------
+    int
+        How many frequencies there are now.
+    """
+    bent = math.exp(2.0 * STRAIGHTNESS / 10.0 * math.log(10.0))
+    straight[: count - 1] = False
+    spare[0, :count] = axis[0, :count]
+    halved = count
+    for turn in range(MOST_HALVINGS + 1):
+        for i in range(count - 1 if turn > 0 else 0):
+            if not straight[i]:
+                spare[0, halved] = 0.5 * (axis[0, i] + axis[0, i + 1])
+                halved += 1
+        force_energy(track, spare[0], halved, spare[1], spare[2])  # the only call: it is compiled in here
+        if turn == 0:
+            axis[1:, :count] = spare[1:, :count]
+            halved = 0
+            continue
+        # insert from the end, so that everything is moved once
+        to = count - 1 + halved
+        taken = halved - 1
+        for row in range(3):
+            axis[row, to] = axis[row, count - 1]
+        for i in range(count - 2, -1, -1):
+            is_straight = straight[i]
+            if not is_straight:
+                is_straight = True
+                for row in range(1, 3):
+                    bend = spare[row, taken] ** 2 / (axis[row, i] * axis[row, to])
+                    if bend > bent or 0.0 <= bend * bent < 1.0:
+                        is_straight = False
+                straight[to - 1] = is_straight
+                for row in range(3):
+                    axis[row, to - 1] = spare[row, taken]
+                taken -= 1
+                to -= 1
+            straight[to - 1] = is_straight
+            for row in range(3):
+                axis[row, to - 1] = axis[row, i]
+            to -= 1
+        count += halved
+        halved = 0
+        # an interval much wider than a neighbour: a peak's flank may look straight by chance
+        all_straight = True
+        before = math.inf
+        for i in range(count - 1):
+            here = axis[0, i + 1] - axis[0, i]
+            after = axis[0, i + 2] - axis[0, i + 1] if i + 2 < count else math.inf
+            spare_straight[i] = straight[i] and not here > WIDEST_STEP * min(before, after)
+            all_straight = all_straight and spare_straight[i]
+            before = here
+        straight[: count - 1] = spare_straight[: count - 1]
+        if all_straight or count > MOST_FREQUENCIES:
+            break
+    return count
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def band_integrals(frequency, density, count, first, edges, slopes, factors, band_energy):
+    """Integrate a cubic spline through a spectrum over the bands.
+
+    Between knots a cubic with values y and slopes d integrates to h (y0 + y1)/2 + h^2 (d0 - d1)/12. Panels
+    are summed band by band: the difference of one running sum would lose bands that lie far below others.
+
+    Parameters
+    ----------
+    frequency, density : numpy.ndarray (capacity,)
+        Knots [Hz] and density [unit/Hz], the first ``count`` of them.
+    count, first : int
+        How many knots, and which of them is the lowest band edge.
+    edges : numpy.ndarray (22,)
+        Edges of the bands [Hz], all of them knots.
+    slopes, factors : numpy.ndarray (capacity,)
+        Workspace.
+    band_energy : numpy.ndarray (21,)
+        Filled: integral over each band [unit].
+    """
+    # slopes that keep the second derivative continuous, a tridiagonal system; the ends are clamped to the
+    # parabola through the last three knots
+    h = frequency[1] - frequency[0]
+    rise = (density[1] - density[0]) / h
+    h_next = frequency[2] - frequency[1]
+    rise_next = (density[2] - density[1]) / h_next
+    slopes[0] = rise + (rise - rise_next) * h / (h + h_next)
+    factors[0] = 0.0
+    for i in range(1, count - 1):
+        h_next = frequency[i + 1] - frequency[i]
+        rise_next = (density[i + 1] - density[i]) / h_next
+        pivot = 1.0 / (2.0 * (h + h_next) - h_next * factors[i - 1])
+        slopes[i] = (3.0 * (h_next * rise + h * rise_next) - h_next * slopes[i - 1]) * pivot
+        factors[i] = h * pivot
+        h, rise = h_next, rise_next
+    last = count - 1
+    h, h_before = frequency[last] - frequency[last - 1], frequency[last - 1] - frequency[last - 2]
+    rise = (density[last] - density[last - 1]) / h
+    rise_before = (density[last - 1] - density[last - 2]) / h_before
+    slopes[last] = rise + (rise - rise_before) * h / (h + h_before)
+    for i in range(count - 2, 0, -1):
+        slopes[i] -= factors[i] * slopes[i + 1]
+    band_energy[:] = 0.0
+    band = 0
+    for i in range(first, count - 1):
+        if band + 1 < band_energy.size and frequency[i] >= edges[band + 1]:
+            band += 1
+        h = frequency[i + 1] - frequency[i]
+        band_energy[band] += (
+            0.5 * h * (density[i] + density[i + 1]) + h * h * (slopes[i] - slopes[i + 1]) / 12.0
+        )
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def solve_rows(tracks, edges, per_band, line_fraction, band_energy, heights, found, sound):
+    """Solve a row of designs.
+
+    Parameters
+    ----------
+    tracks : numpy.ndarray (designs, 19)
+        The tracks.
+    edges : numpy.ndarray (22,)
+        Edges of the bands [Hz].
+    per_band : int
+        Intervals per band from which spectra are refined [-].
+    line_fraction : float
+        Where the line is anchored, in parts of the loaded-track frequency [-].
+    band_energy : numpy.ndarray (designs, 2, 21)
+        Filled: squared force summed over the supports, and square of the summed force, per unit step
+        [N2 s/m2].
+    heights : numpy.ndarray (designs, 2)
+        Filled: either energy over frequency squared where the line is anchored [N2 s4/m2].
+    found : numpy.ndarray (designs, 2)
+        Filled: loaded-track and coupled-block frequency [Hz]; NaN where there is none.
+    sound : numpy.ndarray of int (designs,)
+        Filled: 1 if the spectrum is resolved, 0 if resonances are too sharp, -1 if rounding drowns it.
+    """
+    axis, spare = np.empty((3, CAPACITY)), np.empty((3, CAPACITY))
+    straight, spare_straight = np.empty(CAPACITY, np.bool_), np.empty(CAPACITY, np.bool_)
+    frequencies, at = np.empty(FREQUENCIES), np.empty((3, 1))
+    for row in range(tracks.shape[0]):
+        track = tracks[row]
+        natural_frequencies(track, frequencies, False)
+        found[row, 0], found[row, 1] = frequencies[LOADED_TRACK], frequencies[COUPLED_BLOCK]
+        loaded = frequencies[LOADED_TRACK]
+        count, first = first_axis(loaded, edges, per_band, line_fraction, axis[0])
+        count = refine(track, count, axis, straight, spare, spare_straight)
+        while axis[0, first] < edges[0]:
+            first += 1
+        sound[row] = 1 if count <= MOST_FREQUENCIES else 0
+        for i in range(count):
+            if not (axis[1, i] > 0.0 and axis[1, i] < math.inf):
+                sound[row] = -1
+        at[0, 0] = min(line_fraction * loaded, edges[-1])
+        force_energy(track, at[0], 1, at[1], at[2])
+        for kind in range(2):
+            heights[row, kind] = at[1 + kind, 0] / at[0, 0] ** 2
+            band_integrals(
+                axis[0], axis[1 + kind], count, first, edges, spare[0], spare[1], band_energy[row, kind]
+            )
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def resolve_row(track, frequency):
+    """Refine the spectrum of one design.
+
+    Parameters
+    ----------
+    track : numpy.ndarray (19,)
+        The track.
+    frequency : numpy.ndarray (frequencies,)
+        Frequencies to begin with [Hz], ascending and greater than zero; all are kept.
+
+    Returns
+    -------
+    numpy.ndarray (3, more frequencies)
+        Frequency [Hz], energy and coherent energy per unit step [N2 s2/m2].
+    """
+    capacity = max(CAPACITY, 2 * frequency.size)
+    axis, spare = np.empty((3, capacity)), np.empty((3, capacity))
+    axis[0, : frequency.size] = frequency
+    count = refine(
+        track, frequency.size, axis, np.empty(capacity, np.bool_), spare, np.empty(capacity, np.bool_)
+    )
+    return axis[:, :count].copy()
