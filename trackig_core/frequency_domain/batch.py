@@ -5,13 +5,18 @@ solved as ``solve(design, "exact")`` does, within 0.01 dB; the compiled code sta
 :mod:`trackig_core.frequency_domain.batch_kernels`.
 """
 
+import math
 import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field, fields
-from functools import cached_property
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
+from trackig_core.arrays import AnyArray, BoolArray, RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS, LINE_FRACTION, decibels
 from trackig_core.frequency_domain import batch_kernels as kernels
 from trackig_core.frequency_domain.refinement import band_frequencies
@@ -25,9 +30,18 @@ from trackig_core.track.design import (
     DesignError,
     Rail,
     TrackDesign,
-    check_number,
 )
-from trackig_core.track.viscoelastic_law import NEGLIGIBLE, relaxation
+from trackig_core.track.fields import check_number
+from trackig_core.track.viscoelastic_law import NEGLIGIBLE, Relaxation, relaxation
+
+if TYPE_CHECKING:
+    import pandas
+
+Columns: TypeAlias = dict[str, AnyArray]
+"""Fields of many designs by name: arrays of numbers, or of objects."""
+
+Row: TypeAlias = int | tuple[int, ...]
+Shape: TypeAlias = tuple[int, ...]
 
 FIELDS = tuple(each.name for each in fields(TrackDesign))
 """Fields of a design, in order."""
@@ -66,26 +80,26 @@ class BatchSolution:
         Definition of :attr:`insertion_gain`.
     """
 
-    columns: dict = field(repr=False)
-    loaded_track: np.ndarray = field(repr=False)
-    coupled_block: np.ndarray = field(repr=False)
-    resolved: np.ndarray = field(repr=False)
-    energy_ratio: np.ndarray = field(repr=False)
-    line_ratio: np.ndarray = field(repr=False)
+    columns: Columns = field(repr=False)
+    loaded_track: RealArray = field(repr=False)
+    coupled_block: RealArray = field(repr=False)
+    resolved: BoolArray = field(repr=False)
+    energy_ratio: NDArray[np.float32] = field(repr=False)
+    line_ratio: RealArray = field(repr=False)
     reference: str = "line"
     summation: str = "energy"
 
     @property
-    def band_centres(self):
+    def band_centres(self) -> RealArray:
         """Exact mid-band frequencies (21,) [Hz]."""
         return BAND_CENTRES
 
     @cached_property
-    def insertion_gain(self):
+    def insertion_gain(self) -> RealArray:
         """Insertion gain per band (..., 21) [dB]."""
         return self.gain_for(self.reference, self.summation)
 
-    def gain_for(self, reference="line", summation="energy"):
+    def gain_for(self, reference: str = "line", summation: str = "energy") -> RealArray:
         """Return the insertion gain for any of the four definitions, without solving again.
 
         Parameters
@@ -115,7 +129,7 @@ class BatchSolution:
             levels -= decibels(self.line_ratio[..., kind, None])
         return levels
 
-    def design(self, row):
+    def design(self, row: Row) -> TrackDesign:
         """Return one of the designs.
 
         Parameters
@@ -130,7 +144,7 @@ class BatchSolution:
         """
         return _design({name: values[row] for name, values in self.columns.items()})
 
-    def to_dataframe(self):
+    def to_dataframe(self) -> "pandas.DataFrame":
         """Return a pandas.DataFrame, one row a design: fields [SI], natural frequencies [Hz], bands [dB]."""
         import pandas as pd
 
@@ -143,16 +157,16 @@ class BatchSolution:
 
 
 def solve_many(
-    base=None,
+    base: TrackDesign | Sequence[TrackDesign] | None = None,
     *,
-    reference="line",
-    summation="energy",
-    threads=None,
-    progress=None,
-    cancelled=None,
-    designs=None,
-    **arrays,
-):
+    reference: str = "line",
+    summation: str = "energy",
+    threads: int | None = None,
+    progress: Callable[[float], object] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    designs: Sequence[TrackDesign] | None = None,
+    **arrays: object,
+) -> BatchSolution:
     """Compute the insertion gain and natural frequencies of many tracks, as ``solve(design, "exact")`` does.
 
     Parameters
@@ -191,11 +205,12 @@ def solve_many(
     """
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
-    if designs is None and not isinstance(base, TrackDesign):
-        base, designs = None, base
-    columns = _columns_of(designs) if base is None else _varied(base, arrays)
-    if base is None and arrays:
+    if isinstance(base, TrackDesign):
+        columns = _varied(base, arrays)
+    elif arrays:
         raise ValueError(f"{next(iter(arrays))}: give one design as base to vary its fields")
+    else:
+        columns = _columns_of(designs if base is None else base)
     shape = columns["rail"].shape
     count = columns["rail"].size
     rows = {
@@ -206,14 +221,14 @@ def solve_many(
         "line_ratio": np.empty((count, 2)),
     }
 
-    def solve_chunk(begin):
+    def solve_chunk(begin: int) -> None:
         chunk = slice(begin, min(begin + CHUNK, count))
         within = {name: values.flat[chunk] for name, values in columns.items()}
         try:
             for name, values in _solved(within).items():
                 rows[name][chunk] = values
         except DesignError as error:
-            raise _in_row(error, begin + error.row, shape) from None
+            raise _in_row(error, begin + cast("int", error.row), shape) from None  # it counts from the chunk
 
     _run(solve_chunk, range(0, count, CHUNK), threads, progress, cancelled)
     return BatchSolution(
@@ -224,7 +239,13 @@ def solve_many(
     )
 
 
-def _run(work, chunks, threads, progress, cancelled):
+def _run(
+    work: Callable[[int], None],
+    chunks: range,
+    threads: int | None,
+    progress: Callable[[float], object] | None,
+    cancelled: Callable[[], bool] | None,
+) -> None:
     """Do all chunks, several at a time, watching from the calling thread."""
     threads = threads or os.cpu_count() or 1
     with ThreadPoolExecutor(min(threads, max(1, len(chunks)))) as pool:
@@ -241,13 +262,13 @@ def _run(work, chunks, threads, progress, cancelled):
             raise
 
 
-def _in_row(error, place, shape):
+def _in_row(error: DesignError, place: int, shape: Shape) -> DesignError:
     """Return a DesignError that names the row, a number or for several axes a tuple."""
     row = place if len(shape) == 1 else tuple(int(index) for index in np.unravel_index(place, shape))
     return DesignError(error.field, error.value, error.allowed, row)
 
 
-def _columns_of(designs):
+def _columns_of(designs: Iterable[TrackDesign] | None) -> Columns:
     """Return the fields of given designs as columns."""
     designs = list(designs if designs is not None else ())
     for row, design in enumerate(designs):
@@ -256,7 +277,7 @@ def _columns_of(designs):
     return {name: _column([getattr(design, name) for design in designs]) for name in FIELDS}
 
 
-def _varied(base, arrays):
+def _varied(base: TrackDesign, arrays: Mapping[str, object]) -> Columns:
     """Return the fields of a design, some of them varied, as checked columns of one shape."""
     given = {name: _column(values) for name, values in arrays.items()}
     shape = np.broadcast_shapes((1,), *(values.shape for values in given.values()))
@@ -270,7 +291,7 @@ def _varied(base, arrays):
     if set(objects) - {"rail"}:
         for place in range(int(np.prod(shape))):
             row = {name: values.flat[place] for name, values in given.items()}
-            _checked(lambda row=row: base.replace(**row), place, shape)
+            _checked(partial(base.replace, **row), place, shape)
     elif objects:
         rails = objects["rail"]
         for place, rail in enumerate(rails.flat):
@@ -280,7 +301,7 @@ def _varied(base, arrays):
     return columns | given
 
 
-def _first_row(base, given):
+def _first_row(base: TrackDesign, given: Columns) -> None:
     """Raise a DesignError if fields do not exist or do not come together."""
     _checked(
         lambda: base.replace(**{name: _plain(values.flat[0]) for name, values in given.items()}),
@@ -289,14 +310,14 @@ def _first_row(base, given):
     )
 
 
-def _checked(make, place, shape):
+def _checked(make: Callable[[], object], place: int, shape: Shape) -> None:
     try:
         make()
     except DesignError as error:
         raise _in_row(error, place, shape) from None
 
 
-def _column(values):
+def _column(values: Any) -> AnyArray:
     """Return values as an array of floats, or else of objects."""
     if isinstance(values, Rail):
         values = [values]
@@ -308,11 +329,11 @@ def _column(values):
     return array
 
 
-def _plain(value):
+def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _check_numbers(name, values):
+def _check_numbers(name: str, values: RealArray) -> None:
     """Raise a DesignError for the first number that is out of its range."""
     low, high, _ = RANGES[name]
     wrong = ~((values >= low) & (values <= high))  # NaN is neither
@@ -321,11 +342,11 @@ def _check_numbers(name, values):
         _checked(lambda: check_number(name, float(values.flat[place])), place, values.shape)
 
 
-def _design(row):
+def _design(row: Mapping[str, Any]) -> TrackDesign:
     return TrackDesign(**{name: _plain(value) for name, value in row.items()})
 
 
-def _solved(columns):
+def _solved(columns: Columns) -> dict[str, AnyArray]:
     """Solve a chunk of designs (n,); errors name the row within."""
     tracks = _tracks(columns)
     count = len(tracks)
@@ -346,14 +367,14 @@ def _solved(columns):
     }
 
 
-def _loss_error(columns, row, allowed):
+def _loss_error(columns: Columns, row: int, allowed: str) -> DesignError:
     """Return a DesignError about the loss of the spring that stands on the ground."""
     part = "pad" if _plain(columns["block_mass"][row]) is None else "boot"
     name = f"{part}_loss_factor"
     return DesignError(name, _plain(columns[name][row]), allowed, row)
 
 
-def _tracks(columns):
+def _tracks(columns: Columns) -> RealArray:
     """Return a chunk of designs as the kernels take them (n, 19)."""
     two_stage = np.array([mass is not None for mass in columns["block_mass"]])
     tracks = np.zeros((two_stage.size, kernels.COLUMNS))
@@ -376,7 +397,7 @@ def _tracks(columns):
     return tracks
 
 
-def _fill_laws(laws, stiffness, loss_factor):
+def _fill_laws(laws: RealArray, stiffness: AnyArray, loss_factor: AnyArray) -> None:
     """Fill in the laws (n, 7) of springs; zeros where there is none."""
     if stiffness.dtype == loss_factor.dtype == float:
         _fill_constant(laws, stiffness, loss_factor)
@@ -396,7 +417,7 @@ def _fill_laws(laws, stiffness, loss_factor):
             laws[row] = law_row(relaxation(_plain(stiffness[row]), _plain(loss_factor[row])))
 
 
-def _fill_constant(laws, stiffness, loss_factor):
+def _fill_constant(laws: RealArray, stiffness: RealArray, loss_factor: RealArray) -> None:
     """Fill in the laws (n, 7) of springs of constant loss factors."""
     strengths, times, _ = interpolated_terms(loss_factor)
     strengths[loss_factor < NEGLIGIBLE] = 0.0
@@ -406,7 +427,7 @@ def _fill_constant(laws, stiffness, loss_factor):
     laws[:, 4:7] = times
 
 
-def law_row(law):
+def law_row(law: Relaxation | None) -> list[float]:
     """Return a pad's or boot's law as the kernels take it (7,): k_inf, strengths [N/m], times [s].
 
     Parameters
@@ -425,7 +446,7 @@ def law_row(law):
     return [law.instantaneous, *law.strengths, *none, *law.times, *none]
 
 
-def track_row(design, pad, boot):
+def track_row(design: TrackDesign, pad: Relaxation, boot: Relaxation | None) -> RealArray:
     """Return a design as the kernels take it.
 
     Parameters
@@ -454,7 +475,7 @@ def track_row(design, pad, boot):
     )
 
 
-def exact_banded(track, loaded_track, step=DEFAULT_STEP):
+def exact_banded(track: RealArray, loaded_track: float, step: float = DEFAULT_STEP) -> ForceSpectrum:
     """Return the exact spectrum over all bands on a refined axis, in one compiled call.
 
     Parameters
@@ -476,7 +497,7 @@ def exact_banded(track, loaded_track, step=DEFAULT_STEP):
     return ForceSpectrum(frequency, energy * step**2, coherent * step**2, step)
 
 
-def exact_natural_frequencies(track):
+def exact_natural_frequencies(track: RealArray) -> NaturalFrequencies:
     """Return all natural frequencies in one compiled call.
 
     Parameters
@@ -491,9 +512,11 @@ def exact_natural_frequencies(track):
     """
     found = np.empty(kernels.FREQUENCIES)
     kernels.natural_frequencies(track, found, True)
-    loaded, block, rigid_blocks, on_boot, *cut_on = (
-        None if np.isnan(frequency) else float(frequency) for frequency in found
-    )
+    loaded, block, rigid_blocks, on_boot, *cut_on = found.tolist()
     return NaturalFrequencies(
-        loaded, block, rigid_blocks, on_boot, tuple(each for each in cut_on if each is not None)
+        loaded_track=loaded,
+        coupled_block=None if math.isnan(block) else block,
+        wheel_on_rigid_blocks=rigid_blocks,
+        block_on_boot=None if math.isnan(on_boot) else on_boot,
+        cut_on=tuple(each for each in cut_on if not math.isnan(each)),
     )

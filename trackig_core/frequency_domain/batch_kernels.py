@@ -19,6 +19,8 @@ import math
 import numpy as np
 from numba import njit
 
+from trackig_core.arrays import BoolArray, IntArray, RealArray
+
 PAD, BOOT, BLOCK_MASS, BENDING, ELEMENT_MASS, WHEEL_MASS, CONTACT = 0, 7, 14, 15, 16, 17, 18
 COLUMNS = 19
 """Columns of a track: pad law, boot law, block mass [kg] (0: single-stage), EI/dx^3 [N/m], m' dx [kg], wheel
@@ -61,7 +63,7 @@ PAD_ON_RAIL, PAIR_LOWER, PAIR_UPPER, BOOT_ON_BLOCK, BETWEEN_SPRINGS, SURPLUS, BA
 
 
 @njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def square_root(re, im):
+def square_root(re: float, im: float) -> tuple[float, float]:
     """Return the square root of a complex number that lies in the right half plane, as two floats."""
     larger = math.sqrt(0.5 * (math.sqrt(re * re + im * im) + abs(re)))
     smaller = 0.5 * abs(im) / (larger + 1e-300)
@@ -72,7 +74,9 @@ def square_root(re, im):
 
 
 @njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def bay_waves(q, re, im):
+def bay_waves(
+    q: float, re: float, im: float
+) -> tuple[float, float, float, float, float, float, float, float]:
     """Solve the supported rail exactly: two waves that decay from bay to bay.
 
     The derivation is that of :func:`trackig_core.frequency_domain.kernels.bay_waves`. With three elements a
@@ -116,7 +120,9 @@ def bay_waves(q, re, im):
 
 
 @njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def wave(re, im, share_re, share_im, root_re, root_im):
+def wave(
+    re: float, im: float, share_re: float, share_im: float, root_re: float, root_im: float
+) -> tuple[float, float, float, float]:
     """Return factor from bay to bay and share in the receptance of the wave of w = y - 2, as four floats."""
     half_re, half_im = square_root(
         re * (1.0 + 0.25 * re) - 0.25 * im * im, im * (1.0 + 0.25 * re) + 0.25 * re * im
@@ -139,14 +145,16 @@ def wave(re, im, share_re, share_im, root_re, root_im):
 
 
 @njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def two_sided(re, im):
+def two_sided(re: float, im: float) -> tuple[float, float]:
     """Return the real and imaginary part of (1 + p)/(1 - p)."""
     scale = 1.0 / ((1.0 - re) * (1.0 - re) + im * im)
     return (1.0 - re * re - im * im) * scale, 2.0 * im * scale
 
 
 @njit(nogil=True, cache=True, error_model="numpy", fastmath={"contract"})
-def force_energy(track, frequency, count, energy, coherent):
+def force_energy(
+    track: RealArray, frequency: RealArray, count: int, energy: RealArray, coherent: RealArray
+) -> None:
     """Compute the energy of the force into the ground per unit step of roughness.
 
     Parameters
@@ -211,7 +219,7 @@ def force_energy(track, frequency, count, energy, coherent):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def spring(track, law, frequency):
+def spring(track: RealArray, law: int, frequency: float) -> float:
     """Return Re K of the pad's or boot's law, which begins at a column of the track, at a frequency [N/m]."""
     angular = 2.0 * math.pi * frequency
     stiffness = track[law]
@@ -221,7 +229,7 @@ def spring(track, law, frequency):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def support(track, frequency):
+def support(track: RealArray, frequency: float) -> float:
     """Return the stiffness of a support without its loss, block included, at a frequency [N/m]."""
     pad = spring(track, PAD, frequency)
     if track[BLOCK_MASS] == 0.0:
@@ -231,7 +239,7 @@ def support(track, frequency):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def oscillator(kind, pad, boot, rail_mass, block_mass):
+def oscillator(kind: int, pad: float, boot: float, rail_mass: float, block_mass: float) -> float:
     """Return the frequency of masses on springs of given stiffnesses [Hz]."""
     if kind == PAD_ON_RAIL:
         squared = pad / rail_mass
@@ -249,7 +257,7 @@ def oscillator(kind, pad, boot, rail_mass, block_mass):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def lossless_waves(track, frequency):
+def lossless_waves(track: RealArray, frequency: float) -> tuple[float, float]:
     """Return point receptance [m/N] and largest squared factor from bay to bay [-], the loss taken out."""
     q = track[ELEMENT_MASS] * (2.0 * math.pi * frequency) ** 2 / track[BENDING]
     waves = bay_waves(q, support(track, frequency) / track[BENDING], 0.0)
@@ -258,7 +266,7 @@ def lossless_waves(track, frequency):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def residual(kind, track, frequency):
+def residual(kind: int, track: RealArray, frequency: float) -> float:
     """Return what vanishes at a natural frequency.
 
     Parameters
@@ -293,7 +301,9 @@ def residual(kind, track, frequency):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def root_between(kind, track, low, high, absolute, relative):
+def root_between(
+    kind: int, track: RealArray, low: float, high: float, absolute: float, relative: float
+) -> float:
     """Return the root of a residual in a bracket by Brent's method, or NaN if there is no change of sign.
 
     Parameters
@@ -360,7 +370,7 @@ def root_between(kind, track, low, high, absolute, relative):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def mode(kind, track):
+def mode(kind: int, track: RealArray) -> float:
     """Return the frequency of masses on springs, consistent with the springs' stiffness there [Hz].
 
     It is bracketed by the frequencies with static and with instantaneous stiffnesses: relaxation stiffens.
@@ -372,13 +382,13 @@ def mode(kind, track):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def dies_away(track, frequency):
+def dies_away(track: RealArray, frequency: float) -> bool:
     """Return whether both waves decay from bay to bay, the loss taken out."""
     return math.sqrt(lossless_waves(track, frequency)[1]) < 1.0 - STILL
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def waves_begin(track, straight_rail):
+def waves_begin(track: RealArray, straight_rail: float) -> float:
     """Return the lowest frequency at which waves run along the track [Hz].
 
     On most tracks all bays then move as one; on stiff supports far apart shorter waves begin before.
@@ -401,7 +411,7 @@ def waves_begin(track, straight_rail):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def loaded_track(track, straight_rail):
+def loaded_track(track: RealArray, straight_rail: float) -> float:
     """Return the bound mode of the wheel on the supported rail [Hz]; see :func:`waves_begin`."""
     begin = waves_begin(track, straight_rail)
     top = begin * (1.0 - EDGE)
@@ -414,7 +424,7 @@ def loaded_track(track, straight_rail):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def natural_frequencies(track, found, everything):
+def natural_frequencies(track: RealArray, found: RealArray, everything: bool) -> None:
     """Find the natural frequencies of a track.
 
     Parameters
@@ -451,7 +461,9 @@ def natural_frequencies(track, found, everything):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def first_axis(loaded, edges, per_band, line_fraction, frequency):
+def first_axis(
+    loaded: float, edges: RealArray, per_band: int, line_fraction: float, frequency: RealArray
+) -> tuple[int, int]:
     """Fill in the frequencies from which a spectrum is refined.
 
     Parameters
@@ -495,7 +507,14 @@ def first_axis(loaded, edges, per_band, line_fraction, frequency):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def refine(track, count, axis, straight, spare, spare_straight):
+def refine(
+    track: RealArray,
+    count: int,
+    axis: RealArray,
+    straight: BoolArray,
+    spare: RealArray,
+    spare_straight: BoolArray,
+) -> int:
     """Halve intervals until a spectrum shows every peak; see :mod:`trackig_core.frequency_domain.refinement`.
 
     Parameters
@@ -573,7 +592,16 @@ def refine(track, count, axis, straight, spare, spare_straight):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def band_integrals(frequency, density, count, first, edges, slopes, factors, band_energy):
+def band_integrals(
+    frequency: RealArray,
+    density: RealArray,
+    count: int,
+    first: int,
+    edges: RealArray,
+    slopes: RealArray,
+    factors: RealArray,
+    band_energy: RealArray,
+) -> None:
     """Integrate a cubic spline through a spectrum over the bands.
 
     Between knots a cubic with values y and slopes d integrates to h (y0 + y1)/2 + h^2 (d0 - d1)/12. Panels
@@ -626,7 +654,16 @@ def band_integrals(frequency, density, count, first, edges, slopes, factors, ban
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def solve_rows(tracks, edges, per_band, line_fraction, band_energy, heights, found, sound):
+def solve_rows(
+    tracks: RealArray,
+    edges: RealArray,
+    per_band: int,
+    line_fraction: float,
+    band_energy: RealArray,
+    heights: RealArray,
+    found: RealArray,
+    sound: IntArray,
+) -> None:
     """Solve a row of designs.
 
     Parameters
@@ -675,7 +712,7 @@ def solve_rows(tracks, edges, per_band, line_fraction, band_energy, heights, fou
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def resolve_row(track, frequency):
+def resolve_row(track: RealArray, frequency: RealArray) -> RealArray:
     """Refine the spectrum of one design.
 
     Parameters

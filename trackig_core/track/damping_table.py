@@ -13,6 +13,9 @@ from importlib.resources import files
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike
+
+from trackig_core.arrays import RealArray
 
 LARGEST = 1.0
 """Loss factor at which the table ends [-]."""
@@ -22,7 +25,7 @@ NODES = LARGEST * (1 + np.cos(np.pi * (np.arange(16) + 0.5) / 16)) / 2
 NODES.flags.writeable = False
 
 
-def interpolated_terms(loss_factor):
+def interpolated_terms(loss_factor: ArrayLike) -> tuple[RealArray, RealArray, RealArray]:
     """Return the relaxation terms of springs with constant loss factors.
 
     Parameters
@@ -48,8 +51,8 @@ def interpolated_terms(loss_factor):
 
 
 @cache
-def _coefficients():
+def _coefficients() -> RealArray:
     """Return the coefficients of the Chebyshev polynomials (16, 7), of the logarithms of all columns [-]."""
     with (files("trackig_core.track") / "data" / "damping_table.csv").open() as lines:
         table = np.loadtxt(lines, delimiter=",", skiprows=1)
-    return chebyshev.chebfit(2 * table[:, 0] / LARGEST - 1, np.log(table[:, 1:]), len(table) - 1)
+    return np.asarray(chebyshev.chebfit(2 * table[:, 0] / LARGEST - 1, np.log(table[:, 1:]), len(table) - 1))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from trackig_core.arrays import RealArray
 from trackig_core.track.damping_table import NODES
 from trackig_core.track.viscoelastic_law import fit_loss_factor
 
@@ -16,7 +17,7 @@ COLUMNS = "loss_factor,strength_1,strength_2,strength_3,time_1_s,time_2_s,time_3
 """Head of the table; strengths are divided by the loss factor."""
 
 
-def fitted_table():
+def fitted_table() -> RealArray:
     """Return the rows of the table (nodes, 8), a least-squares fit each."""
     rows = []
     for loss_factor in NODES:
