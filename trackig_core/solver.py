@@ -9,7 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from trackig_core.frequency_domain import floquet_waves, refinement
+from trackig_core.frequency_domain import batch_kernels, floquet_waves
+from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.frequency_domain.convergence import time_step_errors
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
 from trackig_core.frequency_domain.refinement import banded_spectrum
@@ -180,7 +181,7 @@ def _plan_notes(chosen: adaptive_grid.Plan, history: TimeHistory) -> tuple[str, 
 
 def _sharpness_notes(spectrum: ForceSpectrum) -> tuple[str, ...]:
     """Return what is to be said of resonances that are too sharp to be resolved."""
-    if spectrum.frequency.size <= refinement.MOST_FREQUENCIES:
+    if spectrum.frequency.size <= batch_kernels.MOST_FREQUENCIES:
         return ()
     return ("some resonances are too sharp to be resolved: do not trust their bands",)
 
@@ -197,7 +198,9 @@ def _step_notes(model: TrackModel, grid: Grid) -> tuple[str, ...]:
 
 
 def compile_kernels() -> None:
-    """Compile every kernel, or load it from Numba's cache on disk, by solving one small track."""
+    """Compile every kernel, or load it from Numba's cache on disk, by solving one track in every way."""
     design = PRESETS["booted-block-low-mass"]
     simulate(design, make_grid(design, bays=FEWEST_BAYS, record=0.25))
-    natural_frequencies(design)
+    banded_spectrum(design)
+    floquet_waves.receptance(design, [50.0])
+    solve_many(design)

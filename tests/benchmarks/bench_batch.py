@@ -14,7 +14,8 @@ import trackig_core as tig
 from tests.benchmarks.bench_solver import fastest, multiply_add
 from tests.core.slow import run_ring
 from trackig_core.frequency_domain import batch_kernels as kernels
-from trackig_core.frequency_domain.batch import exact_banded, exact_natural_frequencies, track_row
+from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.frequency_domain.track_model import track_model
 from trackig_core.time_domain.grid import make_grid
 from trackig_core.track.viscoelastic_law import constant_loss_factor, laws
 
@@ -65,13 +66,7 @@ def test_batch_of_designs(threads, most, paper_run, tell, remark):
 
 def test_exact_solve(paper_run, tell, remark):
     """Spectrum and natural frequencies of one design, and the whole of ``solve``."""
-
-    def compiled():
-        track = track_row(DESIGN, *laws(DESIGN))
-        return exact_banded(track, exact_natural_frequencies(track).loaded_track)
-
-    compiled()
-    seconds = fastest(compiled, rounds=200)
+    seconds = fastest(banded_spectrum, DESIGN, rounds=200)
     tell(seconds, "exact spectrum and natural frequencies, compiled")
     remark(f"exact spectrum and natural frequencies: 1/{paper_run / seconds:.0f} of a paper run")
     whole = fastest(tig.solve, DESIGN, "exact", rounds=50)
@@ -88,7 +83,7 @@ def test_share_of_peak(tell, remark):
     count = 253
     frequency = np.geomspace(5, 500, count)
     energy, coherent = np.empty(count), np.empty(count)
-    track = track_row(DESIGN, *laws(DESIGN))
+    track = track_model(DESIGN).row
     seconds = fastest(kernels.force_energy, track, frequency, count, energy, coherent, rounds=2000) / count
     numbers = np.ones(96)
     multiply_add(1, numbers, 0.999, 0.1)

@@ -11,7 +11,10 @@ from hypothesis import strategies as st
 
 import trackig_core as tig
 from tests.core.time_domain.test_grid import designs
+from trackig_core import solver
+from trackig_core.frequency_domain import batch_kernels
 from trackig_core.frequency_domain import kernels as frequency_kernels
+from trackig_core.frequency_domain.batch_kernels import MOST_FREQUENCIES
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
 from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.time_domain import kernels as time_kernels
@@ -228,11 +231,20 @@ LOSSLESS_PAD = tig.TrackDesign(
 )
 
 
-def test_resonances_too_sharp_to_be_resolved_are_told():
-    sharper = LOSSLESS_PAD.replace(boot_loss_factor=1e-7)
-    assert any("too sharp" in note for note in tig.solve(sharper, "exact").notes)
+def test_resonances_too_sharp_to_be_resolved_are_reported():
+    frequency = np.linspace(5, 500, MOST_FREQUENCIES + 1)
+    spectrum = tig.ForceSpectrum(frequency, np.ones_like(frequency), np.ones_like(frequency), 1e-4)
+    assert any("too sharp" in note for note in solver._sharpness_notes(spectrum))
     for design in tig.PRESETS.values():
         assert tig.solve(design, "exact").notes == ()
+
+
+def test_next_to_no_loss_is_resolved_and_rings_ten_decibels_louder_a_decade():
+    peaks = [
+        tig.solve(LOSSLESS_PAD.replace(boot_loss_factor=loss), "exact").insertion_gain.max()
+        for loss in (1e-5, 1e-6, 1e-7, 1e-8)
+    ]
+    assert np.diff(peaks) == pytest.approx(10.0, abs=0.02)
 
 
 LIGHT_PAD = tig.TrackDesign(
@@ -271,25 +283,18 @@ def test_sharp_resonances_are_resolved(design):
         assert abs(10 * np.log10(solution.gain.band_energy[band] / total)) < 0.002
 
 
-def test_what_rounding_drowns_is_refused():
-    design = tig.TrackDesign(
-        pad_stiffness=1.037e5,
-        pad_loss_factor=0.0,
-        block_mass=8043.0,
-        boot_stiffness=4.42e5,
-        boot_loss_factor=0.02,
-        fastener_spacing=0.1548,
-        wheel_mass=341.0,
-        contact_stiffness=8.337e8,
-        rail=tig.Rail("light", 10.53, 1.852e6),
-    )
-    with pytest.raises(tig.DesignError, match="rounding drowns"):
-        tig.solve(design, "exact")
+def test_what_rounding_drowns_is_refused(monkeypatch):
+    def drowned(_, frequency):
+        return np.array([frequency, -np.ones_like(frequency), np.ones_like(frequency)])
+
+    monkeypatch.setattr(batch_kernels, "resolve_row", drowned)
+    with pytest.raises(tig.DesignError, match=r"boot_loss_factor = 0\.2: .*rounding drowns"):
+        tig.solve(BLOCK, "exact")
 
 
 def test_compiling_leaves_nothing_to_compile():
     tig.compile_kernels()
-    every = [*vars(time_kernels).values(), *vars(frequency_kernels).values()]
+    every = [*vars(time_kernels).values(), *vars(frequency_kernels).values(), *vars(batch_kernels).values()]
     kernels = [each for each in every if hasattr(each, "signatures")]
     before = {each: tuple(each.signatures) for each in kernels}
     for fidelity in ("paper", "exact"):

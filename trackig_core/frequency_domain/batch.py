@@ -5,7 +5,6 @@ solved as ``solve(design, "exact")`` does, within 0.01 dB; the compiled code sta
 :mod:`trackig_core.frequency_domain.batch_kernels`.
 """
 
-import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -19,12 +18,11 @@ from numpy.typing import NDArray
 from trackig_core.arrays import AnyArray, BoolArray, RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS, LINE_FRACTION, decibels
 from trackig_core.frequency_domain import batch_kernels as kernels
-from trackig_core.frequency_domain.refinement import band_frequencies
+from trackig_core.frequency_domain.kernel_rows import law_row
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice
-from trackig_core.results import ForceSpectrum, NaturalFrequencies, SolveCancelled
+from trackig_core.results import SolveCancelled
 from trackig_core.track.damping_table import interpolated_terms
 from trackig_core.track.design import (
-    DEFAULT_STEP,
     RANGES,
     REFERENCE_FREQUENCY,
     DesignError,
@@ -32,7 +30,7 @@ from trackig_core.track.design import (
     TrackDesign,
 )
 from trackig_core.track.fields import check_number
-from trackig_core.track.viscoelastic_law import NEGLIGIBLE, Relaxation, relaxation
+from trackig_core.track.viscoelastic_law import NEGLIGIBLE, relaxation
 
 if TYPE_CHECKING:
     import pandas
@@ -425,98 +423,3 @@ def _fill_constant(laws: RealArray, stiffness: RealArray, loss_factor: RealArray
     laws[:, 0] = stiffness * (1.0 + relaxed.sum(axis=1))
     laws[:, 1:4] = stiffness[:, None] * strengths
     laws[:, 4:7] = times
-
-
-def law_row(law: Relaxation | None) -> list[float]:
-    """Return a pad's or boot's law as the kernels take it (7,): k_inf, strengths [N/m], times [s].
-
-    Parameters
-    ----------
-    law : Relaxation or None
-        The law; None where there is no such spring.
-
-    Returns
-    -------
-    list of float
-        Seven numbers; without memory the strengths are zero.
-    """
-    if law is None:
-        return [0.0] * 7
-    none = (0.0,) * (3 - len(law.strengths))
-    return [law.instantaneous, *law.strengths, *none, *law.times, *none]
-
-
-def track_row(design: TrackDesign, pad: Relaxation, boot: Relaxation | None) -> RealArray:
-    """Return a design as the kernels take it.
-
-    Parameters
-    ----------
-    design : TrackDesign
-        The track.
-    pad, boot : Relaxation
-        Laws of its pads and boots; ``boot`` is None when single-stage.
-
-    Returns
-    -------
-    numpy.ndarray (19,)
-        See :data:`trackig_core.frequency_domain.batch_kernels.COLUMNS`.
-    """
-    dx = design.fastener_spacing / kernels.ELEMENTS_PER_BAY
-    return np.array(
-        [
-            *law_row(pad),
-            *law_row(boot),
-            design.block_mass or 0.0,
-            design.rail.bending_stiffness / dx**3,
-            design.rail.mass_per_metre * dx,
-            design.wheel_mass,
-            design.contact_stiffness,
-        ]
-    )
-
-
-def exact_banded(track: RealArray, loaded_track: float, step: float = DEFAULT_STEP) -> ForceSpectrum:
-    """Return the exact spectrum over all bands on a refined axis, in one compiled call.
-
-    Parameters
-    ----------
-    track : numpy.ndarray (19,)
-        The track, see :func:`track_row`.
-    loaded_track : float
-        Its loaded-track frequency [Hz].
-    step : float
-        Height of the step [m].
-
-    Returns
-    -------
-    ForceSpectrum
-        What :func:`trackig_core.frequency_domain.refinement.banded_spectrum` gives, at the same frequencies.
-        Energies that are not greater than zero, or not finite, are drowned by rounding.
-    """
-    frequency, energy, coherent = kernels.resolve_row(track, band_frequencies(loaded_track))
-    return ForceSpectrum(frequency, energy * step**2, coherent * step**2, step)
-
-
-def exact_natural_frequencies(track: RealArray) -> NaturalFrequencies:
-    """Return all natural frequencies in one compiled call.
-
-    Parameters
-    ----------
-    track : numpy.ndarray (19,)
-        The track, see :func:`track_row`.
-
-    Returns
-    -------
-    NaturalFrequencies
-        What :func:`trackig_core.frequency_domain.natural_frequencies.natural_frequencies` returns.
-    """
-    found = np.empty(kernels.FREQUENCIES)
-    kernels.natural_frequencies(track, found, True)
-    loaded, block, rigid_blocks, on_boot, *cut_on = found.tolist()
-    return NaturalFrequencies(
-        loaded_track=loaded,
-        coupled_block=None if math.isnan(block) else block,
-        wheel_on_rigid_blocks=rigid_blocks,
-        block_on_boot=None if math.isnan(on_boot) else on_boot,
-        cut_on=tuple(each for each in cut_on if not math.isnan(each)),
-    )

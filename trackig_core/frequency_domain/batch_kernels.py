@@ -74,9 +74,7 @@ def square_root(re: float, im: float) -> tuple[float, float]:
 
 
 @njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def bay_waves(
-    q: float, re: float, im: float
-) -> tuple[float, float, float, float, float, float, float, float]:
+def bay_waves(q: float, re: float, im: float) -> tuple[float, ...]:
     """Solve the supported rail exactly: two waves that decay from bay to bay.
 
     The derivation is that of :func:`trackig_core.frequency_domain.kernels.bay_waves`. With three elements a
@@ -94,9 +92,10 @@ def bay_waves(
 
     Returns
     -------
-    tuple of float (8,)
+    tuple of float (10,)
         Real and imaginary parts: factor of the first and the second wave from bay to bay [-], of magnitude up
-        to one; share of the first and the second wave in the point receptance, times EI/dx^3 [-].
+        to one; share of the first and the second wave in the point receptance, times EI/dx^3 [-]. Then how
+        much of its energy either wave loses from bay to bay [-].
     """
     still = (3.0 - q) * (9.0 - q)
     half_re, half_im = 6.0 * q - 2.0 * re, -2.0 * im
@@ -114,16 +113,25 @@ def bay_waves(
     # share of either wave: (still + 4 w) / (-+ 2 root)
     scale = 0.5 / (root_re * root_re + root_im * root_im)
     root_re, root_im = root_re * scale, -root_im * scale
-    m1_re, m1_im, a1_re, a1_im = wave(one_re, one_im, -still - 4.0 * one_re, -4.0 * one_im, root_re, root_im)
-    m2_re, m2_im, a2_re, a2_im = wave(two_re, two_im, still + 4.0 * two_re, 4.0 * two_im, root_re, root_im)
-    return m1_re, m1_im, m2_re, m2_im, a1_re, a1_im, a2_re, a2_im
+    m1_re, m1_im, a1_re, a1_im, lost1 = wave(
+        one_re, one_im, -still - 4.0 * one_re, -4.0 * one_im, root_re, root_im
+    )
+    m2_re, m2_im, a2_re, a2_im, lost2 = wave(
+        two_re, two_im, still + 4.0 * two_re, 4.0 * two_im, root_re, root_im
+    )
+    return m1_re, m1_im, m2_re, m2_im, a1_re, a1_im, a2_re, a2_im, lost1, lost2
 
 
 @njit(nogil=True, cache=True, inline="always", error_model="numpy")
 def wave(
     re: float, im: float, share_re: float, share_im: float, root_re: float, root_im: float
-) -> tuple[float, float, float, float]:
-    """Return factor from bay to bay and share in the receptance of the wave of w = y - 2, as four floats."""
+) -> tuple[float, float, float, float, float]:
+    """Return factor from bay to bay, share in the receptance and loss of energy of the wave of w = y - 2.
+
+    With 1/factor = exp(a + i b) the imaginary part of 1 + w/2 = cosh(a + i b) is sinh(a) sin(b), and the real
+    part of sinh(a + i b) is sinh(a) cos(b). So where a wave runs, the loss of energy, 1 - exp(-2 a) =
+    2 sinh(a) |factor|, needs no difference of numbers near one.
+    """
     half_re, half_im = square_root(
         re * (1.0 + 0.25 * re) - 0.25 * im * im, im * (1.0 + 0.25 * re) + 0.25 * re * im
     )
@@ -135,12 +143,18 @@ def wave(
     # share * root / (2 half)
     amplitude_re = share_re * root_re - share_im * root_im
     amplitude_im = share_re * root_im + share_im * root_re
-    inverse = 0.5 / (half_re * half_re + half_im * half_im)
+    size = half_re * half_re + half_im * half_im
+    inverse = 0.5 / size
+    sine = 0.5 * (1.0 + size - mean_re * mean_re - mean_im * mean_im)  # sin(b)^2
+    across = sine > 0.5
+    sinh = abs(mean_im if across else half_re) / math.sqrt(max(sine if across else 1.0 - sine, 0.5))
+    lost = 2.0 * sinh * math.sqrt(scale) if scale > 0.5 else 1.0 - scale
     return (
         factor_re * scale,
         -factor_im * scale,
         (amplitude_re * half_re + amplitude_im * half_im) * inverse,
         (amplitude_im * half_re - amplitude_re * half_im) * inverse,
+        lost,
     )
 
 
@@ -198,19 +212,18 @@ def force_energy(
 
         q = element_mass * squared / bending
         s_re, s_im = support_re / bending, support_im / bending
-        m1_re, m1_im, m2_re, m2_im, a1_re, a1_im, a2_re, a2_im = bay_waves(q, s_re, s_im)
+        m1_re, m1_im, m2_re, m2_im, a1_re, a1_im, a2_re, a2_im, lost1, lost2 = bay_waves(q, s_re, s_im)
         contact_re = compliance + (a1_re + a2_re) / bending - 1.0 / (wheel * squared)
         contact_im = (a1_im + a2_im) / bending
         per_receptance = (passed_re * passed_re + passed_im * passed_im) / (
             (contact_re * contact_re + contact_im * contact_im) * squared * bending * bending
         )
         # squared displacements summed over all supports: three geometric series
-        n1, n2 = m1_re * m1_re + m1_im * m1_im, m2_re * m2_re + m2_im * m2_im
         both_re, both_im = two_sided(m1_re * m2_re + m1_im * m2_im, m1_im * m2_re - m1_re * m2_im)
         pair_re, pair_im = a1_re * a2_re + a1_im * a2_im, a1_im * a2_re - a1_re * a2_im
         energy[i] = per_receptance * (
-            (a1_re * a1_re + a1_im * a1_im) * (1.0 + n1) / (1.0 - n1)
-            + (a2_re * a2_re + a2_im * a2_im) * (1.0 + n2) / (1.0 - n2)
+            (a1_re * a1_re + a1_im * a1_im) * (2.0 - lost1) / lost1
+            + (a2_re * a2_re + a2_im * a2_im) * (2.0 - lost2) / lost2
             + 2.0 * (pair_re * both_re - pair_im * both_im)
         )
         # displacements summed: the receptance to equal forces over all supports

@@ -96,31 +96,3 @@ def chebyshev_excess(excess: float, degree: int) -> tuple[float, float]:
         before, now = now, 2.0 * (1.0 + excess) * now - before + 2.0 * excess
         u_before, u_now = u_now, 2.0 * (1.0 + excess) * u_now - u_before
     return 2.0 * now, u_now
-
-
-@njit(nogil=True, cache=True)
-def rail_compliance(frequency_squared: float, bending: float, element_mass: float, per_bay: int) -> float:
-    """Return how far the rail gives way over every support to equal forces that oppose its motion.
-
-    About 1 / (mass of a bay times w^2): the rail moves as one, but for bending between supports.
-
-    Parameters
-    ----------
-    frequency_squared : float
-        Angular frequency squared [1/s2].
-    bending : float
-        EI / dx^3 [N/m].
-    element_mass : float
-        m' dx [kg].
-    per_bay : int
-        Rail elements per bay.
-
-    Returns
-    -------
-    float
-        Displacement per force and support [m/N].
-    """
-    r = (element_mass * frequency_squared / bending) ** 0.5
-    c1, u1 = chebyshev_excess(0.5 * r, per_bay)
-    c2, u2 = chebyshev_excess(-0.5 * r, per_bay)
-    return (u1 / c1 - u2 / c2) / (2 * r * bending)

@@ -10,6 +10,13 @@ import numpy as np
 
 from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION
+from trackig_core.frequency_domain import batch_kernels
+from trackig_core.frequency_domain.batch_kernels import (
+    MOST_FREQUENCIES,
+    MOST_HALVINGS,
+    STRAIGHTNESS,
+    WIDEST_STEP,
+)
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.natural_frequencies import loaded_track
@@ -17,19 +24,6 @@ from trackig_core.frequency_domain.track_model import Track, TrackModel, track_m
 from trackig_core.levels.insertion_gain import insertion_gain
 from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import DEFAULT_STEP, DesignError
-
-STRAIGHTNESS = 0.05
-"""Bend of a refined spectrum between neighbouring frequencies that is left alone [dB]."""
-
-MOST_HALVINGS = 40
-"""Halvings of an interval after which a peak is taken as resolved [-]: a frequency has few more digits."""
-
-WIDEST_STEP = 3.0
-"""How much wider an interval may be than its neighbour [-]: halved intervals differ by factors of two."""
-
-MOST_FREQUENCIES = 20_000
-"""Frequencies after which a spectrum is refined no further [-]: more are asked for only where losses are so
-small that rounding shows."""
 
 
 def resolved_spectrum(
@@ -54,6 +48,9 @@ def resolved_spectrum(
         Energy at the given and the added frequencies.
     """
     model = track_model(design)
+    if lattice == INFINITE:  # all of it compiled
+        axis, energy, coherent_energy = batch_kernels.resolve_row(model.row, frequency)
+        return ForceSpectrum(axis, energy * step**2, coherent_energy * step**2, step)
     return refined_spectrum(lambda between: exact_spectrum(model, between, step, lattice), frequency)
 
 
@@ -63,7 +60,7 @@ def refined_spectrum(
     """Return any model's spectrum on a frequency axis that is refined until it shows every peak.
 
     Intervals are halved until a straight line between neighbours, in decibels, misses the spectrum
-    by no more than :data:`STRAIGHTNESS`, and no interval is more than :data:`WIDEST_STEP` times as wide as
+    by no more than ``STRAIGHTNESS``, and no interval is more than ``WIDEST_STEP`` times as wide as
     the next.
 
     Parameters

@@ -11,6 +11,7 @@ from functools import cached_property, wraps
 from typing import Any, TypeAlias, TypeVar, cast
 
 from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.frequency_domain.kernel_rows import track_row
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice, dynamic_stiffness
 from trackig_core.track.design import DesignError, TrackDesign
 from trackig_core.track.viscoelastic_law import Relaxation, laws
@@ -79,6 +80,11 @@ class TrackModel:
     def springs(self) -> tuple[Relaxation, ...]:
         """Laws of a support's springs, from the rail down: pad and boot, or the pad alone."""
         return (self.pad,) if self.boot is None else (self.pad, self.boot)
+
+    @cached_property
+    def row(self) -> RealArray:
+        """The track as compiled code takes it (19,); see :mod:`trackig_core.frequency_domain.kernel_rows`."""
+        return track_row(self.design, self.pad, self.boot)
 
     @property
     def rigid_blocks(self) -> "TrackModel":

@@ -4,20 +4,17 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
+from tests.core.frequency_domain.many_digits import force_energy
+from tests.core.frequency_domain.plain_natural_frequencies import plain_natural_frequencies
 from trackig_core.bands import BAND_EDGES
 from trackig_core.frequency_domain import batch_kernels as kernels
-from trackig_core.frequency_domain.batch import (
-    CHUNK,
-    exact_banded,
-    exact_natural_frequencies,
-    solve_many,
-    track_row,
-)
+from trackig_core.frequency_domain.batch import CHUNK, solve_many
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
-from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
-from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.frequency_domain.natural_frequencies import loaded_track, natural_frequencies
+from trackig_core.frequency_domain.refinement import band_frequencies, banded_spectrum, refined_spectrum
+from trackig_core.frequency_domain.track_model import track_model
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, integrate_bands
-from trackig_core.track.viscoelastic_law import laws
+from trackig_core.track.design import DEFAULT_STEP
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
 
@@ -100,17 +97,19 @@ def test_far_apart_supports_are_refined_at_the_pinned_pinned_frequency():
 
 @pytest.mark.parametrize("design", random_designs(40, seed=2))
 def test_one_compiled_call_gives_the_spectrum_and_the_axis_of_the_python_route(design):
-    frequencies = natural_frequencies(design)
-    track = track_row(design, *laws(design))
-    spectrum = exact_banded(track, frequencies.loaded_track)
-    expected = banded_spectrum(design, frequencies.loaded_track)
+    model = track_model(design)
+    frequencies = plain_natural_frequencies(model)
+    spectrum = banded_spectrum(model)
+    expected = refined_spectrum(
+        lambda between: exact_spectrum(model, between, DEFAULT_STEP), band_frequencies(loaded_track(model))
+    )
     assert np.array_equal(spectrum.frequency, expected.frequency)
     # beside the pinned-pinned frequency the waves nearly cancel: rounding shows, in either route
     assert spectrum.energy == pytest.approx(expected.energy, rel=3e-5)
     assert spectrum.coherent_energy == pytest.approx(expected.coherent_energy, rel=3e-5)
     assert np.quantile(np.abs(spectrum.energy / expected.energy - 1), 0.8) < 1e-9
     assert spectrum.step == expected.step
-    found = exact_natural_frequencies(track)
+    found = natural_frequencies(model)
     for name in ("loaded_track", "coupled_block", "wheel_on_rigid_blocks", "block_on_boot", "cut_on"):
         value, expected = getattr(found, name), getattr(frequencies, name)
         assert value is None if expected is None else value == pytest.approx(expected, rel=1e-9)
@@ -120,14 +119,45 @@ def test_the_kernel_is_the_closed_form_to_rounding(preset):
     design = tig.PRESETS[preset]
     frequency = np.geomspace(5, 500, 301)
     energy, coherent = np.empty(301), np.empty(301)
-    kernels.force_energy(track_row(design, *laws(design)), frequency, 301, energy, coherent)
+    kernels.force_energy(track_model(design).row, frequency, 301, energy, coherent)
     expected = exact_spectrum(design, frequency, 1.0)
     assert energy == pytest.approx(expected.energy, rel=1e-12)
     assert coherent == pytest.approx(expected.coherent_energy, rel=1e-12)
 
 
+HARDLY_DAMPED = {
+    "as published": (BLOCK, 1e-12),
+    "single-stage": (SLAB, 1e-12),
+    "boots of hardly any loss": (BLOCK.replace(pad_loss_factor=0.0, boot_loss_factor=1e-7), 1e-10),
+    "blocks that hide the loss": (
+        tig.TrackDesign(
+            pad_stiffness=1.037e5,
+            pad_loss_factor=0.0,
+            block_mass=8043.0,
+            boot_stiffness=4.42e5,
+            boot_loss_factor=0.02,
+            fastener_spacing=0.1548,
+            wheel_mass=341.0,
+            contact_stiffness=8.337e8,
+            rail=tig.Rail("light", 10.53, 1.852e6),
+        ),
+        1e-9,
+    ),
+}
+
+
+@pytest.mark.parametrize(("design", "tolerance"), HARDLY_DAMPED.values(), ids=HARDLY_DAMPED)
+def test_the_kernel_agrees_with_arithmetic_of_sixty_digits(design, tolerance):
+    frequency = np.geomspace(5, 500, 25)
+    energy, coherent = np.empty(25), np.empty(25)
+    row = track_model(design).row
+    kernels.force_energy(row, frequency, 25, energy, coherent)
+    expected = np.array([float(force_energy(row, each)) for each in frequency])
+    assert energy == pytest.approx(expected, rel=tolerance)
+
+
 def test_bands_are_integrated_like_those_of_one_spectrum():
-    spectrum = banded_spectrum(BLOCK, natural_frequencies(BLOCK).loaded_track)
+    spectrum = banded_spectrum(BLOCK)
     count, found = spectrum.frequency.size, np.empty(21)
     first = int(np.searchsorted(spectrum.frequency, BAND_EDGES[0]))
     work = np.empty((2, count))

@@ -1,0 +1,56 @@
+"""A track and its laws as rows of numbers: as compiled code takes them. SI units."""
+
+import numpy as np
+
+from trackig_core.arrays import RealArray
+from trackig_core.frequency_domain import batch_kernels as kernels
+from trackig_core.track.design import TrackDesign
+from trackig_core.track.viscoelastic_law import Relaxation
+
+
+def law_row(law: Relaxation | None) -> list[float]:
+    """Return a pad's or boot's law as the kernels take it (7,): k_inf, strengths [N/m], times [s].
+
+    Parameters
+    ----------
+    law : Relaxation or None
+        The law; None where there is no such spring.
+
+    Returns
+    -------
+    list of float
+        Seven numbers; without memory the strengths are zero.
+    """
+    if law is None:
+        return [0.0] * 7
+    none = (0.0,) * (3 - len(law.strengths))
+    return [law.instantaneous, *law.strengths, *none, *law.times, *none]
+
+
+def track_row(design: TrackDesign, pad: Relaxation, boot: Relaxation | None) -> RealArray:
+    """Return a design as the kernels take it.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+    pad, boot : Relaxation
+        Laws of its pads and boots; ``boot`` is None when single-stage.
+
+    Returns
+    -------
+    numpy.ndarray (19,)
+        See :data:`trackig_core.frequency_domain.batch_kernels.COLUMNS`.
+    """
+    dx = design.fastener_spacing / kernels.ELEMENTS_PER_BAY
+    return np.array(
+        [
+            *law_row(pad),
+            *law_row(boot),
+            design.block_mass or 0.0,
+            design.rail.bending_stiffness / dx**3,
+            design.rail.mass_per_metre * dx,
+            design.wheel_mass,
+            design.contact_stiffness,
+        ]
+    )
