@@ -408,8 +408,8 @@ def lumped_vs_beam(design, reference, summation):
         comparison,
         (
             f"The lumped model puts the wheel on {supports:.1f} supports side by side: as stiff as the rail "
-            f"makes them. It is within {tig.GOOD_ENOUGH:g} dB of the beam in {good.sum()} of {good.size} bands"
-            + (f": {where}." if where else "."),
+            f"makes them. It is within {tig.GOOD_ENOUGH:g} dB of the beam in {good.sum()} of {good.size} "
+            "bands" + (f": {where}." if where else "."),
             f"It is farthest off at {tig.BAND_LABELS[worst]} Hz, where the beam passes "
             f"{abs(gap[worst]):.1f} dB {more}. Below the waves' onset, about "
             f"{frequency_text(tig.cut_on(design)[0])} on this track, "
