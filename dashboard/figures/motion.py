@@ -3,9 +3,8 @@
 All frames of a film, or the complex shape of a steady vibration, are sent once; play, pause and scrub then
 run in the browser and tell the server nothing (``syncable=False``). Movements are drawn larger than they
 are by one factor everywhere, which the scale bar states; downward is towards the ground. Springs join what
-they join: their drawn length shows how far they are squeezed.
-
-The one rule: the browser moves what the solver found; it adds nothing but mirror images and magnification.
+they join: their drawn length shows how far they are squeezed. The browser adds nothing to what was solved but
+mirror images and magnification.
 """
 
 import numpy as np
@@ -267,26 +266,45 @@ PLAY = """
 """Moves a slider on, frame by frame, until the button is up or nobody sees it."""
 
 
-def _play_button(name):
-    return Toggle(name=f"{name}_play", label="Play", width=90, syncable=False, stylesheets=[theme.PLAYER_CSS])
+class _Player:
+    """A moving drawing with its controls, all of which run in the browser.
+
+    Parameters
+    ----------
+    name : str
+        Prefix of the names of drawing, button and slider.
+    slider : dict
+        Title, end, step and format of the slider that runs through the movement.
+    parts : sequence of bokeh.models.ColumnDataSource
+        What moves; the last one, once sent, makes the browser draw.
+    frame : str
+        Script that defines ``of_rail``, ``of_block`` and ``of_wheel``; it knows the parts by their names.
+    rate : str
+        Script of how far the slider moves on in one millisecond.
+    speed : bokeh.models.Select, optional
+        Control that the rate depends on.
+    """
+
+    def __init__(self, name, slider, parts, frame, rate, speed=None):
+        self.view = SideView(name)
+        quiet = {"syncable": False, "stylesheets": [theme.PLAYER_CSS]}
+        self.play = Toggle(name=f"{name}_play", label="Play", width=90, **quiet)
+        self.slider = Slider(
+            name=f"{name}_slider", start=0, value=0, sizing_mode="stretch_width", **slider, **quiet
+        )
+        controls = [self.play, self.slider] if speed is None else [self.play, self.slider, speed]
+        self.model = column(
+            self.view.model, row(*controls, sizing_mode="stretch_width"), sizing_mode="stretch_width"
+        )
+        known = {part.name: part for part in parts} | {"slider": self.slider} | self.view.parts()
+        draw = CustomJS(args=known, code=frame + MOVE)
+        self.slider.js_on_change("value", draw)
+        parts[-1].js_on_change("data", draw)
+        playing = {"play": self.play, "slider": self.slider} | ({} if speed is None else {"speed": speed})
+        self.play.js_on_change("active", CustomJS(args=playing, code=f"const rate = () => {rate}" + PLAY))
 
 
-def _scrub(name, title, end, step, form):
-    return Slider(
-        name=f"{name}_slider",
-        title=title,
-        start=0,
-        end=end,
-        step=step,
-        value=0,
-        format=form,
-        syncable=False,
-        sizing_mode="stretch_width",
-        stylesheets=[theme.PLAYER_CSS],
-    )
-
-
-class FilmPlayer:
+class FilmPlayer(_Player):
     """A film of the track after the step: play, pause, scrub, slow motion.
 
     Attributes
@@ -303,10 +321,7 @@ class FilmPlayer:
     """
 
     def __init__(self):
-        self.view = SideView("film")
         self.film = ColumnDataSource(name="film", data={"time": [], "wheel": []}, syncable=False)
-        self.play = _play_button("film")
-        self.slider = _scrub("film", "Time, ms", 300, 0.1, "0.0")
         self.speed = Select(
             name="film_speed",
             value="50",
@@ -315,22 +330,8 @@ class FilmPlayer:
             syncable=False,
             stylesheets=[theme.PLAYER_CSS],
         )
-        self.model = column(
-            self.view.model,
-            row(self.play, self.slider, self.speed, sizing_mode="stretch_width"),
-            sizing_mode="stretch_width",
-        )
-        draw = CustomJS(
-            args={"film": self.film, "slider": self.slider, **self.view.parts()},
-            code=FILM_FRAME + MOVE,
-        )
-        self.slider.js_on_change("value", draw)
-        self.film.js_on_change("data", draw)
-        playing = CustomJS(
-            args={"play": self.play, "slider": self.slider, "speed": self.speed},
-            code="const rate = () => 1 / Number(speed.value)" + PLAY,
-        )
-        self.play.js_on_change("active", playing)
+        time = {"title": "Time, ms", "end": 300, "step": 0.1, "format": "0.0"}
+        super().__init__("film", time, [self.film], FILM_FRAME, "1 / Number(speed.value)", self.speed)
 
     def show(self, motion):
         """Show the film of a run.
@@ -376,7 +377,7 @@ FILM_FRAME = """
 """
 
 
-class ShapePlayer:
+class ShapePlayer(_Player):
     """The steady vibration at one frequency: play, pause, and scrub through the phase.
 
     Attributes
@@ -393,28 +394,12 @@ class ShapePlayer:
     """
 
     def __init__(self):
-        self.view = SideView("shape")
-
-        def parts(of):
-            return ColumnDataSource(name=f"shape_of_{of}", data={"real": [], "imag": []}, syncable=False)
-
-        self.rail, self.block, self.wheel = parts("rail"), parts("block"), parts("wheel")
-        self.play = _play_button("shape")
-        self.slider = _scrub("shape", "Phase, degrees", 360, 1, "0")
-        self.model = column(
-            self.view.model,
-            row(self.play, self.slider, sizing_mode="stretch_width"),
-            sizing_mode="stretch_width",
-        )
-        shapes = {"of_rails": self.rail, "of_blocks": self.block, "of_wheels": self.wheel}
-        draw = CustomJS(args={"slider": self.slider, **shapes, **self.view.parts()}, code=SHAPE_PHASE + MOVE)
-        self.slider.js_on_change("value", draw)
-        self.wheel.js_on_change("data", draw)
-        playing = CustomJS(
-            args={"play": self.play, "slider": self.slider},
-            code=f"const rate = () => 360 / {PERIOD}" + PLAY,
-        )
-        self.play.js_on_change("active", playing)
+        self.rail, self.block, self.wheel = parts = [
+            ColumnDataSource(name=f"shape_of_{of}", data={"real": [], "imag": []}, syncable=False)
+            for of in ("rail", "block", "wheel")
+        ]
+        phase = {"title": "Phase, degrees", "end": 360, "step": 1, "format": "0"}
+        super().__init__("shape", phase, parts, SHAPE_PHASE, f"360 / {PERIOD}")
 
     def show(self, shape):
         """Show a steady shape at its first frequency.
@@ -438,12 +423,12 @@ class ShapePlayer:
 
 
 SHAPE_PHASE = """
-    if (of_wheels.data.real.length == 0)
+    if (shape_of_wheel.data.real.length == 0)
         return
     const phase = slider.value * Math.PI / 180
     const cosine = Math.cos(phase), sine = Math.sin(phase)
     const now = (of, i) => of.data.real[i] * cosine - of.data.imag[i] * sine
-    const of_rail = element => now(of_rails, Math.abs(element))
-    const of_block = support => now(of_blocks, Math.abs(support))
-    const of_wheel = () => now(of_wheels, 0)
+    const of_rail = element => now(shape_of_rail, Math.abs(element))
+    const of_block = support => now(shape_of_block, Math.abs(support))
+    const of_wheel = () => now(shape_of_wheel, 0)
 """

@@ -1,12 +1,10 @@
 """The track as a drawing: wheel, contact, rail, pads, blocks and boots, as large as they are stiff or heavy.
 
-The picture itself is ``assets/track.svg``, a Jinja template; here every length in it is reckoned, in
+The picture itself is ``assets/track.svg``, a Jinja template; here every length in it is computed, in
 the units of its view box [px]. Along the rail it is true to scale. Across, stiffness makes a spring's
 wire thick and its turns few, on one scale for pad, boot and contact; mass makes wheel and block
-large, as of equal shape; the loss factor fills the damper.
-
-The one rule: nothing moves but what the design moves, and nothing leaves its place in the picture,
-whatever the core allows.
+large, as of equal shape; the loss factor fills the damper. Nothing leaves its place in the picture, whatever
+the core allows.
 """
 
 import math
@@ -95,7 +93,7 @@ WORDS = {
     "ground": "Ground: rigid; the force that it takes is the result",
     "spacing": "Spacing: from fastener to fastener",
 }
-"""What each part is, told when the pointer rests on it."""
+"""What each part is, shown when the pointer rests on it."""
 
 
 def track_svg(design):

@@ -2,15 +2,14 @@
 
 Plots are vector drawings within the file. Units are those of the trade: kN/mm, kg, m, Hz, dB. Names come
 from files and links, so the template escapes whatever it shows, plots hold no text of the user's, and the
-file forbids scripts and requests to whoever opens it.
-
-The one rule: a report shows solutions and never solves; a design without one is named as left out.
+file forbids scripts and requests to whoever opens it. A report never solves: a design without a solution is
+named as left out.
 """
 
 import io
 import re
 import threading
-from dataclasses import dataclass
+from dataclasses import replace
 
 import jinja2
 import numpy as np
@@ -21,9 +20,9 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 import trackig_core as tig
 from dashboard import formats, theme
-from dashboard.fields import NEWTON_PER_METRE, to_display
-from dashboard.session.pins import THIS_DESIGN, distinct_colours, shown_designs
-from dashboard.session.results import SolutionSummary
+from dashboard.fields import FIELDS, NEWTON_PER_METRE
+from dashboard.session.pins import current_design, distinct_colours, shown_designs
+from dashboard.session.results import DesignResult, gain_of
 
 PLOT_WIDTH = 7.3
 """Width of a plot [inch]: that of the text on A4."""
@@ -36,19 +35,6 @@ LEVEL_ROOM = 2.0
 
 LEAST_DIFFERENCES = 3.0
 """What the axis of differences reaches at least, up and down [dB]."""
-
-ROWS = (
-    ("pad_stiffness", "Pad stiffness", "kN/mm"),
-    ("pad_loss_factor", "Pad loss factor", ""),
-    ("block_mass", "Block mass", "kg"),
-    ("boot_stiffness", "Boot stiffness", "kN/mm"),
-    ("boot_loss_factor", "Boot loss factor", ""),
-    ("fastener_spacing", "Fastener spacing", "m"),
-    ("rail", "Rail", ""),
-    ("wheel_mass", "Unsprung wheel mass", "kg"),
-    ("contact_stiffness", "Contact stiffness", "kN/mm"),
-)
-"""Field, name and unit of the inputs, in the order of the load path."""
 
 FREQUENCIES = (
     ("Loaded track", lambda natural: natural.loaded_track),
@@ -66,10 +52,10 @@ SUMMATIONS = {
     "coherent": "forces of the supports summed",
 }
 REFERENCES = {
-    "line": "against the straight line through the track's own spectrum, as in the paper",
-    "rigid": "against the exact rigid track",
+    "line": "relative to the straight line through the track's own spectrum, as in the paper",
+    "rigid": "relative to the exact rigid track",
 }
-"""How the kinds of insertion gain are put in words."""
+"""How each kind of insertion gain is named."""
 
 _DRAWING = threading.Lock()
 """Matplotlib is not made for several threads at once."""
@@ -83,46 +69,13 @@ _TEMPLATES = jinja2.Environment(
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Line:
-    """One design as the report shows it.
-
-    Attributes
-    ----------
-    name : str
-        What it is called.
-    colour : str
-        Colour of its curves.
-    dash : tuple of float
-        Dash of its curves; empty if solid.
-    summary : SolutionSummary
-        Its solution.
-    levels : numpy.ndarray (21,) [dB]
-        Its insertion gain, as the study reckons it.
-    verdict : trackig_core.Verdict or None
-        How it fares against the specification.
-    """
-
-    name: str
-    colour: str
-    dash: tuple[float, ...]
-    summary: SolutionSummary
-    levels: np.ndarray
-    verdict: tig.Verdict | None
-
-    @property
-    def design(self):
-        """The design."""
-        return self.summary.design
-
-
 def html_report(study, summaries, *, date, version):
     """Return a report of a study.
 
     Parameters
     ----------
     study : trackig_core.Study
-        What is reported: the design at hand and the pinned designs that are shown.
+        What is reported: the current design and the pinned designs that are shown.
     summaries : mapping of TrackDesign to SolutionSummary
         Solutions; a shown design that has none is named as left out.
     date : datetime.date
@@ -140,67 +93,52 @@ def html_report(study, summaries, *, date, version):
     ValueError
         If there is no solution of any design that is shown.
     """
-    every = _lines(study, summaries)
-    shown = (True, *(each.shown for each in study.pinned))
-    lines = [line for line, is_shown in zip(every, shown, strict=True) if line is not None and is_shown]
-    if not lines:
+    every = _results(study, summaries)
+    results = [each for each in every if each.shown and each.summary is not None]
+    if not results:
         raise ValueError("there is no solution of any design to report: solve one first")
-    base = every[0 if study.view.base is None else 1 + study.view.base] or lines[0]
+    base = every[0 if study.view.base is None else 1 + study.view.base]
+    base = base if base.summary is not None else results[0]
     return _TEMPLATES.get_template("report.html").render(
         study=study,
         date=f"{date.day} {date:%B %Y}",
         version=version,
-        lines=lines,
+        results=results,
         base=base,
         left_out=[each.name for each in shown_designs(study) if each.design not in summaries],
         hidden=[each.name for each in study.pinned if not each.shown],
         kind=f"{SUMMATIONS[study.view.summation]}; {REFERENCES[study.view.reference]}",
-        gain_plot=_gain_plot(lines, study.specification),
-        difference_plot=_difference_plot(lines, base) if len(lines) > 1 else None,
-        force_plot=_force_plot(lines),
-        step=next((line.summary.step for line in lines if line.summary.step), None),
-        inputs=_inputs(lines, base),
-        frequencies=_frequencies(lines),
-        bands=_bands(lines, study.specification),
-        margins=_margins(lines, study.specification),
-        sources=_sources(lines, base, study.source),
-        fidelities=" and ".join(sorted({line.summary.solution.fidelity for line in lines})),
-        notes=[(line.name, line.summary.solution.notes) for line in lines if line.summary.solution.notes],
+        gain_plot=_gain_plot(results, study.specification),
+        difference_plot=_difference_plot(results, base) if len(results) > 1 else None,
+        force_plot=_force_plot(results),
+        step=next((each.summary.step for each in results if each.summary.step), None),
+        inputs=_inputs(results, base),
+        frequencies=_frequencies(results),
+        bands=_bands(results, study.specification),
+        margins=_margins(results, study.specification),
+        sources=_sources(results, base, study.source),
+        fidelities=" and ".join(sorted({each.summary.solution.fidelity for each in results})),
+        notes=[(each.name, each.summary.solution.notes) for each in results if each.summary.solution.notes],
         file=study.to_toml(),
         theme=theme,
     )
 
 
-def _lines(study, summaries):
-    """Return the design at hand and every pinned one, as :func:`_line` does."""
-    at_hand = _line(study, THIS_DESIGN, study.design, (theme.THIS_DESIGN, ()), summaries)
+def _results(study, summaries):
+    """Return the current design and every pinned one, with what is known of each (DesignResult)."""
     colours = distinct_colours(each.colour for each in study.pinned)
-    looks = ((theme.DESIGN_COLOURS[colour], theme.DESIGN_DASHES[colour]) for colour in colours)
-    pinned = zip(study.pinned, looks, strict=True)
-    return [at_hand, *(_line(study, each.name, each.design, look, summaries) for each, look in pinned)]
+    pinned = (replace(each, colour=own) for each, own in zip(study.pinned, colours, strict=True))
+    records = (current_design(study.design), *pinned)
+    return [_result(study, record, summaries.get(record.design)) for record in records]
 
 
-def _line(study, name, design, look, summaries):
-    """Return a design with its colour and dash, or None if it has not been solved."""
-    summary = summaries.get(design)
+def _result(study, record, summary):
     if summary is None:
-        return None
-    solution, view = summary.solution, study.view
-    levels = tig.insertion_gain(
-        solution.spectrum,
-        solution.design,
-        solution.natural_frequencies.loaded_track,
-        reference=view.reference,
-        summation=view.summation,
-    ).levels
-    return Line(
-        name=name,
-        colour=look[0],
-        dash=look[1],
-        summary=summary,
-        levels=levels,
-        verdict=study.specification.check(levels) if study.specification else None,
-    )
+        return DesignResult(record)
+    gain = gain_of(summary.solution, study.view.reference, study.view.summation)
+    verdict = None if study.specification is None else study.specification.check(gain.levels)
+    level = None if study.source is None else study.source.with_track(gain.levels)
+    return DesignResult(record, summary, gain, verdict, level)
 
 
 def _plot(height):
@@ -234,22 +172,22 @@ def _name_axes(axes, x, y):
     axes.set_ylabel(y, fontsize=9, color=theme.REPORT_INK)
 
 
-def _curve(axes, x, y, line, **kind):
-    dash = {"dashes": line.dash} if line.dash else {}
-    axes.plot(x, y, color=line.colour, linewidth=2, **dash, **kind)
+def _curve(axes, x, y, result, **kind):
+    dash = {"dashes": result.dash} if result.dash else {}
+    axes.plot(x, y, color=result.colour, linewidth=2, **dash, **kind)
 
 
-def _gain_plot(lines, specification):
+def _gain_plot(results, specification):
     with _DRAWING:
         figure, axes = _band_plot(3.5, "Insertion gain, dB")
-        for line in reversed(lines):
-            _curve(axes, tig.BAND_CENTRES, line.levels, line, marker="o", markersize=3.5)
-        seen = np.concatenate([line.levels for line in lines])
+        for each in reversed(results):
+            _curve(axes, tig.BAND_CENTRES, each.levels, each, marker="o", markersize=3.5)
+        seen = np.concatenate([each.levels for each in results])
         if specification is not None:
             limits = specification.levels
             seen = np.concatenate([seen, limits[np.isfinite(limits)]])
             _draw_limits(axes, limits, seen.max() + LEVEL_ROOM)
-            _mark_failing(axes, lines)
+            _mark_failing(axes, results)
         axes.set_ylim(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM)
         return _svg(figure, "gain")
 
@@ -262,47 +200,47 @@ def _draw_limits(axes, limits, top):
     axes.stairs(limits, tig.BAND_EDGES, baseline=None, color=theme.SPECIFICATION, linewidth=2.2)
 
 
-def _mark_failing(axes, lines):
-    for line in lines:
-        fails = line.verdict.fails
+def _mark_failing(axes, results):
+    for each in results:
+        fails = each.verdict.fails
         axes.plot(
             tig.BAND_CENTRES[fails],
-            line.levels[fails],
+            each.levels[fails],
             linestyle="none",
             marker="X",
             markersize=9,
-            color=line.colour,
+            color=each.colour,
             markeredgecolor=theme.LIGHT_PAPER,
             zorder=5,
         )
-    for band in np.flatnonzero(np.any([line.verdict.fails for line in lines], axis=0)):
+    for band in np.flatnonzero(np.any([each.verdict.fails for each in results], axis=0)):
         axes.axvspan(
             *tig.BAND_EDGES[band : band + 2], color=theme.REPORT_BAD, alpha=0.07, linewidth=0, zorder=0
         )
 
 
-def _difference_plot(lines, base):
+def _difference_plot(results, base):
     with _DRAWING:
         figure, axes = _band_plot(2.5, "Difference, dB")
-        differences = [line.levels - base.levels for line in lines]
-        for line, difference in zip(reversed(lines), reversed(differences), strict=True):
-            _curve(axes, tig.BAND_CENTRES, difference, line, marker="o", markersize=3)
+        differences = [each.levels - base.levels for each in results]
+        for each, difference in zip(reversed(results), reversed(differences), strict=True):
+            _curve(axes, tig.BAND_CENTRES, difference, each, marker="o", markersize=3)
         reach = max(LEAST_DIFFERENCES, np.abs(differences).max()) + LEVEL_ROOM / 2
         axes.set_ylim(-reach, reach)
         return _svg(figure, "difference")
 
 
-def _force_plot(lines):
+def _force_plot(results):
     """Return the force over time of all designs that were stepped in time, or None."""
-    stepped = [line for line in lines if line.summary.time is not None]
+    stepped = [each for each in results if each.summary.time is not None]
     if not stepped:
         return None
     with _DRAWING:
         figure, axes = _plot(2.6)
-        for line in reversed(stepped):
-            summary = line.summary
+        for each in reversed(stepped):
+            summary = each.summary
             shown = (TIME_AXIS[0] <= summary.time) & (summary.time <= TIME_AXIS[1])
-            _curve(axes, 1000 * summary.time[shown], summary.total_force[shown], line)
+            _curve(axes, 1000 * summary.time[shown], summary.total_force[shown], each)
         axes.set_xlim(1000 * TIME_AXIS[0], 1000 * TIME_AXIS[1])
         axes.axhline(0, color=theme.REPORT_FAINT, linewidth=1)
         _name_axes(axes, "Time since the step, ms", "Force into the ground, kN")
@@ -319,18 +257,19 @@ def _svg(figure, name):
     return Markup(drawing)
 
 
-def _inputs(lines, base):
+def _inputs(results, base):
     """Return rows of (name, unit, cells), a cell being (text, whether it differs from the base)."""
+    rows = [("rail", "Rail", ""), *((field.name, field.label, field.unit) for field in FIELDS.values())]
     return [
         (
-            name,
+            label,
             unit,
             [
-                (_input(line.design, field), getattr(line.design, field) != getattr(base.design, field))
-                for line in lines
+                (_input(each.design, name), getattr(each.design, name) != getattr(base.design, name))
+                for each in results
             ],
         )
-        for field, name, unit in ROWS
+        for name, label, unit in rows
     ]
 
 
@@ -345,7 +284,7 @@ def _input(design, field):
     if isinstance(value, tig.StiffnessCurve | tig.LossFactorCurve):
         first, last = (formats.quantity_text(value.points[end][0]) for end in (0, -1))
         return f"measured at {len(value.points)} frequencies, {first} to {last} Hz"
-    return formats.quantity_text(to_display(field, value))
+    return formats.quantity_text(FIELDS[field].to_display(value))
 
 
 def _has_own_loss(design, field):
@@ -353,10 +292,10 @@ def _has_own_loss(design, field):
     return part != field and isinstance(getattr(design, f"{part}_stiffness"), tig.StiffnessCurve)
 
 
-def _frequencies(lines):
+def _frequencies(results):
     """Return rows of (name, cells)."""
     return [
-        (name, [_hertz(take(line.summary.solution.natural_frequencies)) for line in lines])
+        (name, [_hertz(take(each.summary.solution.natural_frequencies)) for each in results])
         for name, take in FREQUENCIES
     ]
 
@@ -368,7 +307,7 @@ def _hertz(value):
     return " and ".join(formats.frequency_text(each).removesuffix(" Hz") for each in values)
 
 
-def _bands(lines, specification):
+def _bands(results, specification):
     """Return rows of (label, limit, cells), a cell being (text, whether it exceeds the limit)."""
     limits = np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels
     return [
@@ -376,15 +315,15 @@ def _bands(lines, specification):
             label,
             formats.signed_text(limits[band]) if np.isfinite(limits[band]) else "",
             [
-                (formats.signed_text(line.levels[band]), bool(line.verdict and line.verdict.fails[band]))
-                for line in lines
+                (formats.signed_text(each.levels[band]), bool(each.verdict and each.verdict.fails[band]))
+                for each in results
             ],
         )
         for band, label in enumerate(tig.BAND_LABELS)
     ]
 
 
-def _margins(lines, specification):
+def _margins(results, specification):
     """Return rows of (label, cells) for the bands that are specified, a cell as in the table of bands."""
     if specification is None:
         return []
@@ -392,8 +331,8 @@ def _margins(lines, specification):
         (
             label,
             [
-                (formats.signed_text(line.verdict.margins[band]), bool(line.verdict.fails[band]))
-                for line in lines
+                (formats.signed_text(each.verdict.margins[band]), bool(each.verdict.fails[band]))
+                for each in results
             ],
         )
         for band, label in enumerate(tig.BAND_LABELS)
@@ -401,21 +340,20 @@ def _margins(lines, specification):
     ]
 
 
-def _sources(lines, base, source):
-    """Return rows of (line or None, four texts); the first is the reference track."""
+def _sources(results, base, source):
+    """Return rows of (result or None, four texts); the first is the reference track."""
     if source is None:
         return []
     reference = source.with_track(np.zeros(tig.BAND_CENTRES.size))
-    against = source.with_track(base.levels)
-    levels = [(None, reference), *((line, source.with_track(line.levels)) for line in lines)]
+    levels = [(None, reference), *((each, each.level) for each in results)]
     return [
         (
-            line,
+            each,
             [
                 formats.plain_text(level.unweighted),
                 formats.plain_text(level.a_weighted),
-                *map(formats.signed_text, level.relative_to(against)),
+                *map(formats.signed_text, level.relative_to(base.level)),
             ],
         )
-        for line, level in levels
+        for each, level in levels
     ]

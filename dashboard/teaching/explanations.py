@@ -1,9 +1,8 @@
 """What the subjects of the *Learn* tab say of a design: figures to draw, and sentences made from them.
 
 Each function takes a design and choices, all hashable, and returns a frozen record; it may take half a second
-and is called off the event loop (:mod:`dashboard.compute.questions`). SI units; Hz, dB.
-
-The one rule: every number and every comparison in a sentence is computed from what is drawn.
+and is called off the event loop (:mod:`dashboard.compute.questions`). Every number and every comparison in a
+sentence is computed from what is drawn. SI units; Hz, dB.
 """
 
 from dataclasses import dataclass, field
@@ -42,7 +41,7 @@ class Resonances:
     sweep : trackig_core.FrequencySweep
         Frequencies.
     words : tuple of str
-        Why chain and beam depart at the design at hand, and that the pair straddles.
+        Why lumped model and beam differ for this design, and how coupling moves the frequencies apart.
     """
 
     values: np.ndarray = field(repr=False)
@@ -81,8 +80,8 @@ def _straddling(design, sweep):
     below, above = (frequency_text(each) for each in sorted((wheel, block)))
     sentences = (
         f"Uncoupled, the wheel would be at {frequency_text(wheel)} with the block held, the block at "
-        f"{frequency_text(block)} on its boot alone: {near}. Coupled, the chain is at {lower} and {upper}: "
-        f"one below {below}, one above {above}. So it is on every design.",
+        f"{frequency_text(block)} on its boot alone: {near}. Coupled, the lumped model is at {lower} and "
+        f"{upper}: one below {below}, one above {above}. So it is on every design.",
     )
     if np.ptp(np.sign(np.subtract(*sweep.lumped_uncoupled))) == 0:
         return sentences
@@ -165,22 +164,22 @@ def slopes(design, reference, summation):
 
 
 def _about_steepness(design, steepest):
-    """Return how steep chain and beam are at the end of the bands, and why."""
+    """Return how steep lumped model and beam are at the end of the bands, and why."""
     resonance = tig.lumped_frequencies(design).coupled[-1]
     waves_run = tig.cut_on(design)[0] < steepest.frequency
-    chain = (
+    lumped = (
         f"steeper, since it still comes down from its resonance at {frequency_text(resonance)}"
         if steepest.lumped < steepest.asymptote.slope
         else "less, since its dampers stiffen with frequency"
     )
     beam = (
-        ": waves along the rail pass what the chain holds back"
+        ": waves along the rail pass what the lumped model isolates"
         if waves_run and steepest.beam > steepest.lumped + NOTABLE_SLOPE
         else ""
     )
     return (
         f"At {frequency_text(steepest.frequency)} the asymptote has {_slope(steepest.asymptote.slope)} dB "
-        f"per octave. The damped chain has {_slope(steepest.lumped)} there, {chain}; the beam "
+        f"per octave. The damped lumped model has {_slope(steepest.lumped)} there, {lumped}; the beam "
         f"{_slope(steepest.beam)}{beam}."
     )
 
@@ -288,7 +287,7 @@ def _price(levels):
 
 @dataclass(frozen=True, eq=False)
 class Definitions:
-    """One track by four definitions, and against very stiff references.
+    """One track by four definitions, and relative to very stiff references.
 
     Attributes
     ----------
@@ -320,16 +319,13 @@ def definitions(design):
         Levels and sentences.
     """
     solution = tig.solve(design, "exact")
-    loaded = solution.natural_frequencies.loaded_track
     levels = {
-        f"{summation}_{reference}": tig.insertion_gain(
-            solution.spectrum, design, loaded, reference, summation
-        ).levels
+        f"{summation}_{reference}": solution.gain_for(reference, summation).levels
         for summation in SUMMATIONS
         for reference in REFERENCES
     }
     sums = np.abs(levels["energy_line"] - levels["coherent_line"])
-    against_rigid = float(np.mean(levels["energy_rigid"] - levels["energy_line"]))
+    to_rigid = float(np.mean(levels["energy_rigid"] - levels["energy_line"]))
     coherent_step = float(np.mean(levels["coherent_rigid"] - levels["coherent_line"]))
     stiff = tig.stiff_references(design, NARROW)
     wrong = stiff.gain_real - stiff.gain_rigid
@@ -338,8 +334,8 @@ def definitions(design):
         stiff,
         (
             _about_sums(sums, tig.cut_on(design)[0]),
-            f"Against the rigid track, summed energy comes out {abs(against_rigid):.1f} dB "
-            f"{'lower' if against_rigid < 0 else 'higher'} than against the line, in every band alike: the "
+            f"Relative to the rigid track, summed energy comes out {abs(to_rigid):.1f} dB "
+            f"{'lower' if to_rigid < 0 else 'higher'} than relative to the line, in every band alike: the "
             "two are parallel. The line is drawn through the track's own energy, which is small when many "
             "supports share the load; the rigid track passes the whole load at one place. The coherent "
             f"force has no such step: line and rigid track are {abs(coherent_step):.2f} dB apart for it.",
@@ -348,7 +344,7 @@ def definitions(design):
         (
             f"On supports of {to_display('pad_stiffness', STIFF):,.0f} kN/mm the wheel still bounces on its "
             f"contact spring, at {frequency_text(stiff.contact_resonance)}. There such a reference passes "
-            f"{stiff.real.max():.0f} dB more than a rigid track, and the insertion gain against it comes "
+            f"{stiff.real.max():.0f} dB more than a rigid track, and the insertion gain relative to it comes "
             f"out {-wrong.min():.1f} dB too low at {tig.BAND_LABELS[int(np.argmin(wrong))]} Hz: a dip that "
             "no track has.",
             "Stiffen the contact of the reference too, and its peak leaves the bands: what is left is "
@@ -373,14 +369,14 @@ def _about_sums(differences, waves_begin):
 
 @dataclass(frozen=True, eq=False)
 class LumpedVsBeam:
-    """Chain beside beam.
+    """Lumped model beside beam.
 
     Attributes
     ----------
     comparison : trackig_core.LumpedComparison
         Both.
     words : tuple of str
-        Where the chain is good enough, and where not.
+        Where the lumped model is good enough, and where not.
     """
 
     comparison: tig.LumpedComparison
@@ -388,7 +384,7 @@ class LumpedVsBeam:
 
 
 def lumped_vs_beam(design, reference, summation):
-    """Return the insertion gain of the chain beside that of the beam.
+    """Return the insertion gain of the lumped model beside that of the beam.
 
     Parameters
     ----------
@@ -411,14 +407,14 @@ def lumped_vs_beam(design, reference, summation):
     return LumpedVsBeam(
         comparison,
         (
-            f"The chain puts the wheel on {supports:.1f} supports side by side: as stiff as the rail makes "
-            f"them. It is within {tig.GOOD_ENOUGH:g} dB of the beam in {good.sum()} of {good.size} bands"
-            + (f": {where}." if where else "."),
+            f"The lumped model puts the wheel on {supports:.1f} supports side by side: as stiff as the rail "
+            f"makes them. It is within {tig.GOOD_ENOUGH:g} dB of the beam in {good.sum()} of {good.size} "
+            "bands" + (f": {where}." if where else "."),
             f"It is farthest off at {tig.BAND_LABELS[worst]} Hz, where the beam passes "
             f"{abs(gap[worst]):.1f} dB {more}. Below the waves' onset, about "
             f"{frequency_text(tig.cut_on(design)[0])} on this track, "
-            f"{'two masses on springs tell' if design.two_stage else 'one mass on a spring tells'} the "
-            "story; above it vibration travels along the rail, and the chain has no rail to travel along.",
+            f"{'two masses on springs describe' if design.two_stage else 'one mass on a spring describes'} "
+            "it well; above it vibration travels along the rail, and the lumped model has no rail.",
         ),
     )
 
@@ -435,7 +431,7 @@ def band_ranges(chosen):
 
 
 def slope_rows(measured):
-    """Return measured slopes as rows of text: where, asymptote, chain, beam.
+    """Return measured slopes as rows of text: where, asymptote, lumped model, beam.
 
     Parameters
     ----------
@@ -458,7 +454,7 @@ def slope_rows(measured):
     ]
 
 
-IN_STEP, AGAINST = 45.0, 135.0
+IN_STEP, OPPOSED = 45.0, 135.0
 """Phases up to which two movements are said to be in step, and from which against each other [degrees]."""
 
 
@@ -494,4 +490,4 @@ def _phase(one, other):
     angle = abs(float(np.degrees(np.angle(one * np.conj(other)))))
     if angle <= IN_STEP:
         return f"in step ({angle:.0f} degrees apart)"
-    return f"{'against each other' if angle >= AGAINST else 'out of step'} ({angle:.0f} degrees apart)"
+    return f"{'against each other' if angle >= OPPOSED else 'out of step'} ({angle:.0f} degrees apart)"

@@ -28,7 +28,7 @@ A lesson is one file in the lessons' folder; whoever can write Markdown can add 
 
 Figures in braces and claims are those of :mod:`dashboard.teaching.quantities`. Files are taken as hostile:
 bounded in size and number, read as TOML and text, and their Markdown is to be rendered with HTML disabled;
-titles, questions and choices are plain text. The one rule: a broken lesson gives a message that names file
+titles, questions and choices are plain text. A broken lesson gives a message that names file
 and line, never an exception to the page, and a lesson that the solver contradicts says so.
 """
 

@@ -5,14 +5,14 @@ and its claims say ``insertion_gain(63) falls by at least 3 dB``. Both are about
 after. Units are those of the trade, as on the sliders (:mod:`dashboard.session.inputs`).
 
     quantity       insertion_gain(63)   insertion_gain(63, coherent, rigid)   peak   slope(200, 400)
-                   loaded_track   coupled_block   block_on_boot   cut_on   chain_lower   chain_upper
+                   loaded_track   coupled_block   block_on_boot   cut_on   lumped_lower   lumped_upper
                    supports   stiffening(500)   boot_stiffness   wheel_mass   ... every slider
     placeholder    quantity | before quantity | change quantity | difference quantity | percent quantity
     claim          quantity is at least|at most NUMBER UNIT         (``before quantity is ...`` too)
                    quantity falls|rises|changes by at least|at most NUMBER UNIT|%
                    ... between NUMBER and NUMBER UNIT
 
-The one rule: a name is looked up in the table below; nothing from a text is ever evaluated as code.
+A name is looked up in the table below; nothing from a text is ever evaluated as code.
 """
 
 import difflib
@@ -227,7 +227,7 @@ def _frequency(name):
     return _plain("Hz", lambda design: getattr(_exact(design).natural_frequencies, name))
 
 
-def _chain(which):
+def _lumped(which):
     def of(design):
         coupled = tig.lumped_frequencies(design).coupled
         return coupled[which] if which < len(coupled) else None
@@ -305,8 +305,8 @@ _MAKERS = {
     "coupled_block": _frequency("coupled_block"),
     "block_on_boot": _frequency("block_on_boot"),
     "cut_on": _plain("Hz", lambda design: _exact(design).natural_frequencies.cut_on[0]),
-    "chain_lower": _chain(0),
-    "chain_upper": _chain(1),
+    "lumped_lower": _lumped(0),
+    "lumped_upper": _lumped(1),
     "supports": _plain("", tig.effective_supports),
     "stiffening": _stiffening,
     **{name: _slider(name) for name in FIELDS},

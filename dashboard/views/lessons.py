@@ -1,8 +1,8 @@
 """The subject of guided lessons: set this, predict, reveal.
 
 Lessons are files (:mod:`dashboard.teaching.lessons`) and taken as hostile: Markdown is rendered with HTML
-disabled, all else is escaped. A lesson sets sliders when asked to and never locks one. The one rule: what
-is revealed is computed for the lesson's own two designs, whatever the sliders stand at.
+disabled, all else is escaped. A lesson sets sliders when asked to and never locks one. What is
+revealed is computed for the lesson's own two designs, whatever the sliders stand at.
 """
 
 import panel as pn
@@ -160,7 +160,7 @@ class Lessons(Subject):
 
 
 class _Key:
-    """A lesson that can be looked up: lessons hold dicts, so they are told apart by what they say."""
+    """A lesson that can be looked up: lessons hold dicts, so they are distinguished by what they say."""
 
     def __init__(self, lesson):
         self.lesson = lesson

@@ -1,8 +1,7 @@
-"""The tab that says what is computed: equations, assumptions, slips mended, limits, glossary.
+"""The tab that says what is computed: equations, assumptions, slips corrected, limits, glossary.
 
 The text is ``assets/method.md``. Its Markdown is rendered with HTML disabled, its displayed equations by
-KaTeX, which Panel brings along: nothing is fetched from elsewhere. The one rule: the text says it, this only
-shows it.
+KaTeX, which Panel brings along: nothing is fetched from elsewhere.
 """
 
 import re

@@ -1,7 +1,7 @@
 """The subject that shows the track in motion: after the step, and steadily at any one frequency.
 
-The film is that of the design at rest; the steady shape follows the hand, since the exact twin gives it in a
-millisecond. The one rule: what moves on the screen is moved by the browser; the server sends what moves once.
+The film is that of the design at rest; the steady shape follows the slider, since the
+frequency-domain solution takes a millisecond. The server sends what moves once; the browser moves it.
 """
 
 import math

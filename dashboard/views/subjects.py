@@ -1,7 +1,7 @@
 """The subjects of the *Learn* tab that explain the curves: resonances, slopes, damping, definitions, ladder.
 
-Each asks a question of :mod:`dashboard.teaching.explanations` about the design at hand, and draws the
-answer. The one rule: a subject asks and draws; it computes nothing itself.
+Each asks a question of :mod:`dashboard.teaching.explanations` about the current design, and draws the
+answer; it computes nothing itself.
 """
 
 import panel as pn
@@ -32,14 +32,14 @@ OPENING_FIELD = "boot_stiffness"
 
 
 class Subject(Viewer):
-    """What all subjects share: a question about the design at hand, answered while it is looked at.
+    """What all subjects share: a question about the current design, answered while it is looked at.
 
     Parameters
     ----------
     outcome : Outcome
         Whose design is asked about.
     definition : GainDefinition
-        How insertion gain is reckoned.
+        Which insertion gain is shown.
 
     Attributes
     ----------
@@ -88,7 +88,7 @@ class Subject(Viewer):
 
     @property
     def gain_arguments(self):
-        """How insertion gain is reckoned, as arguments of a lecture."""
+        """Which insertion gain is shown, as arguments of an explanation."""
         return self.definition.reference, self.definition.summation
 
 
@@ -118,7 +118,7 @@ def pair(left, right):
 
 
 class Resonances(Subject):
-    """Natural frequencies against any slider, the design at hand as a point that moves along."""
+    """Natural frequencies against any slider, the current design as a point that moves along."""
 
     title = "Resonances"
 
@@ -178,7 +178,7 @@ def _fields(two_stage):
 
 
 class Slopes(Subject):
-    """Insertion gain with the asymptotes of its chain on demand, and measured slopes beside."""
+    """Insertion gain with the asymptotes of the lumped model on demand, and measured slopes beside."""
 
     title = "Slopes"
 
@@ -215,11 +215,11 @@ class Slopes(Subject):
             bokeh_pane(self.figure.model),
             self.table,
             self.words,
-            explanation="the chain's straight asymptotes, dotted; exact insertion gain, drawn out",
+            explanation="the lumped model's straight asymptotes, dotted; the beam's insertion gain, solid",
         )
 
 
-SLOPE_HEADINGS = ("At", "Asymptote", "Damped chain", "Beam")
+SLOPE_HEADINGS = ("At", "Asymptote", "Damped lumped model", "Beam")
 
 
 def slopes_html(measured):
@@ -293,13 +293,13 @@ class Definitions(Subject):
     title = "Definitions"
 
     FOUR = (
-        Curve("energy_line", "summed energy against the line (paper)", theme.THIS_DESIGN, width=3),
-        Curve("energy_rigid", "summed energy against the rigid track", theme.THIS_DESIGN, [7, 3]),
-        Curve("coherent_line", "coherent force against the line", theme.LOADED_TRACK),
-        Curve("coherent_rigid", "coherent force against the rigid track", theme.THEORY, [7, 3]),
+        Curve("energy_line", "energy sum, reference line (paper)", theme.THIS_DESIGN, width=3),
+        Curve("energy_rigid", "energy sum, rigid reference", theme.THIS_DESIGN, [7, 3]),
+        Curve("coherent_line", "coherent sum, reference line", theme.LOADED_TRACK),
+        Curve("coherent_rigid", "coherent sum, rigid reference", theme.THEORY, [7, 3]),
     )
     AGAINST = (
-        Curve("rigid", "against the rigid track", theme.THIS_DESIGN, width=3),
+        Curve("rigid", "rigid reference", theme.THIS_DESIGN, width=3),
         Curve("stiffened", "very stiff, contact stiffened too", theme.COUPLED_BLOCK, [7, 3]),
         Curve("real", "very stiff, contact spring as it is", theme.SPECIFICATION, [7, 3]),
     )
@@ -340,7 +340,7 @@ class Definitions(Subject):
 
 
 class LumpedVsBeam(Subject):
-    """The one-dimensional chain beside the beam, and where it will do."""
+    """The lumped model beside the beam, and where it is good enough."""
 
     title = "Lumped vs beam"
 
@@ -366,5 +366,5 @@ class LumpedVsBeam(Subject):
             self.problem,
             bokeh_pane(self.figure.model),
             self.words,
-            explanation="a chain of two springs and two masses, beside the rail as a beam",
+            explanation="two masses on springs, beside the rail as a beam",
         )

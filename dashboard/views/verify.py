@@ -1,7 +1,7 @@
 """The tab in which the run is compared with theory, and theory with others.
 
-Under each picture stands what it proves and what it does not. The one rule: every figure in a sentence
-is computed from what is drawn beside it.
+Under each picture stands what it proves and what it does not; every figure in a sentence is
+computed from what is drawn beside it.
 """
 
 import numpy as np
@@ -23,7 +23,7 @@ from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
 from dashboard.views.tab import Tab
 
 FINE = tig.Lattice(elements_per_bay=24)
-"""Lattice of the twin that is compared with an independent package."""
+"""Lattice of the frequency-domain solution that is compared with an independent package."""
 
 CURVE = np.geomspace(tig.BAND_EDGES[0], tig.BAND_EDGES[-1], 300)
 """Frequencies of smooth curves [Hz]."""
@@ -36,7 +36,7 @@ NOTHING = np.full_like(DAMPED, np.nan)
 
 
 class Verify(Tab):
-    """Run against exact answer, twin against an independent package, convergence, and damping.
+    """Time stepping and frequency-domain solution, an independent package, convergence, and damping.
 
     Parameters
     ----------
@@ -125,27 +125,27 @@ class Verify(Tab):
         self.comparison.show(run, exact)
         self.difference.show(run - exact)
         self.words["run"].object = (
-            f"Largest difference {largest(run - exact)} between time stepping and the exact answer of the "
-            "same lattice, infinitely long and in continuous time: the cost of time step and ring. Against "
-            f"the exact answer of the stepping scheme on its ring, the z-transform: {largest(run - scheme)}. "
-            "This proves that the scheme is solved as it is written; it does not prove that rail, ground and "
-            "wheel are as modelled."
+            f"Largest difference {largest(run - exact)} between time stepping and the frequency-domain "
+            "solution of the same lattice, infinitely long and in continuous time: the cost of time step and "
+            "ring. From the stepping scheme on its ring, solved exactly by its z-transform: "
+            f"{largest(run - scheme)}. This proves that the scheme is solved as it is written; it does not "
+            "prove that rail, ground and wheel are as modelled."
         )
 
     def _show_peer(self, *_):
         peer = tig.peer_receptances()[self.peer.value]
         design = tig.PRESETS[self.peer.value]
         self.receptance.show(peer, CURVE, tig.receptance(design, CURVE, lattice=FINE))
-        twin = tig.receptance(design, peer.frequency, lattice=FINE)
+        own = tig.receptance(design, peer.frequency, lattice=FINE)
         below = peer.frequency < BELOW
-        gaps = np.abs(20 * np.log10(np.abs(twin / peer.euler)))
+        gaps = np.abs(20 * np.log10(np.abs(own / peer.euler)))
         shear = 20 * np.log10(np.abs(peer.timoshenko / peer.euler))
         worst = np.argmax(np.abs(shear))
         near, farthest = formats.difference_text(gaps[below].max()), largest(gaps)
         at_5_hz, at_worst = formats.level_text(shear[0]), formats.level_text(shear[worst])
         self.words["peer"].object = (
             "The rail's point receptance over a support, by the open-source package Rolland 26.08a1: its "
-            f"Euler rail is within {near} of the twin up to 315 Hz, and parts from it most by {farthest}, "
+            f"Euler rail is within {near} of trackig up to 315 Hz, and differs from it most by {farthest}, "
             "since it keeps the rail's rotary inertia. This proves rail and supports by other hands; it does "
             "not prove the beam. A rail that shears (Timoshenko) would change the receptance "
             f"by {at_5_hz} at 5 Hz and by {at_worst} at {tig.BAND_LABELS[worst]} Hz. trackig leaves shear "
@@ -163,7 +163,7 @@ class Verify(Tab):
         ]
         in_time, along = formats.difference_text(time_error), formats.difference_text(element_error)
         self.words["convergence"].object = (
-            "Largest error in any band (summed energy against the straight line): "
+            "Largest error in any band (energy sum, reference line): "
             f"{in_time} at this run's time step, {along} at its {grid.elements_per_bay} elements a bay (both "
             "dash-dotted). Errors that fall along the grey slopes prove that finer grids lead to one answer: "
             "the paper's damping memory is of first order, its beam of second. They do not prove that this "
@@ -186,7 +186,7 @@ class Verify(Tab):
         worst = max(law.worst_error for law in laws.values() if law is not None)
         ends = solution.pad_law.dynamic_stiffness([5.0, 500.0]).real / solution.pad_law.stiffness(50.0)
         self.words["damping"].object = (
-            f"Three relaxation terms hold the loss factor within {worst:.1%} of the stated (thin) from 5 to "
+            f"Three relaxation terms keep the loss factor within {worst:.1%} of the stated (thin) from 5 to "
             f"500 Hz. A causal damper stiffens with frequency: this pad from {ends[0]:.2f} of its stated "
             f"stiffness at 5 Hz to {ends[1]:.2f} at 500 Hz. This proves the fit; it does not prove that a "
             "real pad has the same loss factor at all frequencies."
@@ -196,7 +196,7 @@ class Verify(Tab):
         """Return what is put on the page."""
         comparison, difference, time_step, element, stiffness, loss_factor = self.panes
         run = pmui.Paper(
-            caption("Time stepping against the exact answer", ""),
+            caption("Time stepping and frequency-domain solution", ""),
             comparison,
             difference,
             self.words["run"],
@@ -204,7 +204,7 @@ class Verify(Tab):
         )
         peer = pmui.Paper(
             pmui.Row(
-                caption("The exact twin against an independent package", ""),
+                caption("Frequency-domain solution and an independent package", ""),
                 pn.HSpacer(),
                 self.peer,
                 sizing_mode="stretch_width",

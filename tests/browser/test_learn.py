@@ -197,7 +197,7 @@ def test_lessons_leave_the_sliders_to_the_hand(dashboard):
     ("subject", "words"),
     [
         ("Resonances", "one below"),
-        ("Slopes", "The damped chain has"),
+        ("Slopes", "The damped lumped model has"),
         ("Damping", "No material can lose energy"),
         ("Definitions", "The two sums are farthest apart"),
         ("Lumped vs beam", "It is within 3 dB of the beam"),

@@ -8,6 +8,8 @@ import pytest
 
 import trackig_core as tig
 from dashboard import assets
+from dashboard.fields import FIELDS
+from dashboard.report.html_report import FREQUENCIES
 from trackig_core.analysis.asymptotes import PER_RESONANCE
 from trackig_core.track.viscoelastic_law import fit_loss_factor
 
@@ -56,7 +58,7 @@ def test_its_figures_are_those_of_the_model():
     assert math.sqrt(wheel.contact_stiffness / wheel.wheel_mass) / (2 * math.pi) == pytest.approx(180, abs=2)
 
 
-def test_its_polynomial_of_the_chain_has_the_chains_roots():
+def test_its_polynomial_has_the_roots_of_the_lumped_model():
     design = tig.PRESETS["booted-block-low-mass"].replace(pad_loss_factor=0.0, boot_loss_factor=0.0)
     n = tig.effective_supports(design)
     upper = 1 / (1 / design.contact_stiffness + 1 / (n * design.pad_stiffness))
@@ -66,7 +68,37 @@ def test_its_polynomial_of_the_chain_has_the_chains_roots():
         assert left == pytest.approx(upper / (n * design.block_mass) * x)
 
 
+TERMS = re.findall(r"^\| ([^|]*?) \|", TEXT.split("## Glossary")[1], re.MULTILINE)[1:]
+
+
 def test_glossary_is_in_order():
-    terms = re.findall(r"^\| ([a-z][^|]*?) \|", TEXT.split("## Glossary")[1], re.MULTILINE)[1:]
-    assert len(terms) > 15
-    assert terms == sorted(terms)
+    assert len(TERMS) > 30
+    assert sorted(TERMS, key=str.casefold) == TERMS
+
+
+def test_glossary_explains_the_labels_of_the_page():
+    labels = [
+        *(field.label for field in FIELDS.values()),
+        *(name for name, _ in FREQUENCIES if not name.startswith("observed")),
+        *("Insertion gain", "Receptance", "Loss factor", "Dynamic stiffness", "Lumped model", "Roughness"),
+    ]
+    heads = [term.split(",")[0].casefold() for term in TERMS]
+    unexplained = [label for label in labels if not any(head in label.casefold() for head in heads)]
+    assert unexplained == []
+
+
+@pytest.mark.parametrize(
+    "term",
+    ["coherent sum", "energy sum", "Floquet wave", "frequency-domain solution", "insertion loss",
+     "pinned-pinned frequency", "reference line", "reference, rigid", "reference, very stiff",
+     "single-stage, two-stage", "track decay rate"],
+)  # fmt: skip
+def test_glossary_has_the_terms_of_the_field(term):
+    assert term in TERMS
+
+
+def test_the_glossary_s_pinned_pinned_frequency_is_that_of_the_rail():
+    rail = tig.RAILS["60"]
+    frequency = math.pi / (2 * 0.6**2) * math.sqrt(rail.bending_stiffness / rail.mass_per_metre)
+    assert f"{frequency:.0f} Hz for a 60 kg/m rail at 0.6 m" in TEXT
+    assert frequency > tig.BAND_EDGES[-1]

@@ -239,3 +239,52 @@ def test_designs_look_as_their_colours_say_and_no_two_alike(study, summaries):
     looks = re.findall(r'stroke="(#\w+)" stroke-width="3" stroke-dasharray="([\d ]*)"', report)[:4]
     own = [(theme.DESIGN_COLOURS[n], " ".join(map(str, theme.DESIGN_DASHES[n]))) for n in (4, 0, 1)]
     assert looks == [(theme.THIS_DESIGN, ""), *own]
+
+
+@pytest.fixture
+def plots(monkeypatch):
+    """Return a dict that gathers the axes of each plot of a report, by its name."""
+    axes = {}
+
+    def keep(figure, name):
+        axes[name] = figure.axes[0]
+        return ""
+
+    monkeypatch.setattr("dashboard.report.html_report._svg", keep)
+    return axes
+
+
+def curve_of(axes, colour):
+    """Return the data of the one curve of a colour."""
+    (line,) = [each for each in axes.get_lines() if each.get_color() == colour]
+    return line.get_data()
+
+
+def test_differences_are_those_from_the_base(plots, study, summaries):
+    study = dataclasses.replace(study, view=tig.View(base=0))
+    html_report(study, summaries, date=DAY, version="1")
+    axes, base = plots["difference"], summaries[HIGH].solution.insertion_gain
+    slab = tig.PRESETS["slab-track"]
+    for design, colour in (
+        (LOW, theme.THIS_DESIGN),
+        (HIGH, theme.DESIGN_COLOURS[4]),
+        (slab, theme.DESIGN_COLOURS[1]),
+    ):
+        centres, difference = curve_of(axes, colour)
+        np.testing.assert_array_equal(centres, tig.BAND_CENTRES)
+        np.testing.assert_array_equal(difference, summaries[design].solution.insertion_gain - base)
+        low, high = axes.get_ylim()
+        assert low == -high
+        assert np.abs(difference).max() < high
+
+
+def test_forces_are_drawn_in_kilonewton_over_milliseconds(plots, summaries):
+    html_report(tig.Study(LOW), summaries, date=DAY, version="1")
+    axes, solution = plots["force"], tig.solve(LOW)
+    time, force = curve_of(axes, theme.THIS_DESIGN)
+    shown = (solution.time >= -0.005) & (solution.time <= 0.25)
+    np.testing.assert_allclose(time, 1000 * solution.time[shown])
+    np.testing.assert_allclose(force, solution.total_force[shown] / 1000)
+    assert axes.get_xlim() == (-5, 250)
+    assert axes.get_xlabel() == "Time since the step, ms"
+    assert axes.get_ylabel() == "Force into the ground, kN"

@@ -143,3 +143,75 @@ def test_a_steady_shape_is_told_in_words(factor, wheel_and_rail, rail_and_block)
     above = explanations.shape_words(tig.steady_shape(BLOCK, 500.0))
     assert "rail and block in step" not in above
     assert "block" not in explanations.shape_words(tig.steady_shape(SLAB, 50.0))
+
+
+@pytest.mark.parametrize(
+    ("ratio", "apart"),
+    [(1.45, "close together"), (1.55, "far apart"), (1 / 1.45, "close together"), (1 / 1.55, "far apart")],
+)
+def test_uncoupled_frequencies_are_called_close_below_a_ratio_of_one_and_a_half(ratio, apart):
+    design = BLOCK
+    # stiffness depends on frequency a little, so a few steps are needed
+    for _ in range(5):
+        wheel, block = tig.lumped_frequencies(design).uncoupled
+        design = design.replace(block_mass=design.block_mass * (block / (ratio * wheel)) ** 2)
+    assert block / wheel == pytest.approx(ratio, rel=0.01)
+    assert f"its boot alone: {apart}" in explanations.resonances(design, "pad_loss_factor").words[0]
+
+
+def steepness(asymptote=-24.0, lumped=-24.0, beam=-24.0, frequency=500.0):
+    """Return what is said of slopes at a frequency of a track whose waves run from about 100 Hz on."""
+    line = tig.Asymptote((400.0, 600.0), (0.0, 0.0), asymptote)
+    return explanations._about_steepness(BLOCK, tig.MeasuredSlope(line, frequency, lumped, beam))
+
+
+def test_the_beam_is_explained_by_waves_where_they_run_and_it_is_notably_less_steep():
+    waves = "waves along the rail pass what"
+    assert waves in steepness(lumped=-24.0, beam=-22.9)
+    assert waves not in steepness(lumped=-24.0, beam=-23.1)
+    below = 0.9 * tig.cut_on(BLOCK)[0]
+    assert waves not in steepness(lumped=-24.0, beam=-10.0, frequency=below)
+
+
+def test_the_lumped_model_is_steeper_than_its_asymptote_as_long_as_it_comes_down_from_its_resonance():
+    resonance = tig.lumped_frequencies(BLOCK).coupled[-1]
+    assert f"steeper, since it still comes down from its resonance at {resonance:.3g} Hz" in steepness(
+        asymptote=-24.0, lumped=-24.1
+    )
+    assert "less, since its dampers stiffen" in steepness(asymptote=-24.0, lumped=-23.9)
+
+
+def levels_by_loss(**changed):
+    """Return insertion gain at three loss factors (3, 21) [dB]: a peak in band 8, isolation from 12 on."""
+    levels = np.tile(np.where(np.arange(21) < 12, 1.0, -10.0), (3, 1))
+    levels[0, 8] = 12.0
+    for place, level in changed.items():
+        levels[-1, int(place.removeprefix("band_"))] = level
+    return levels
+
+
+def test_the_price_of_damping_is_looked_for_above_the_peak_where_the_track_isolates():
+    assert "3.0 dB less of it at 315 Hz" in explanations._price(levels_by_loss(band_18=-7.0, band_15=-8.0))
+    nothing = "nothing is lost"
+    assert nothing in explanations._price(levels_by_loss())
+    assert nothing in explanations._price(levels_by_loss(band_18=-11.0))
+    assert nothing in explanations._price(levels_by_loss(band_10=9.0))
+    below = levels_by_loss(band_3=9.0)
+    below[0, 3] = -1.0
+    assert nothing in explanations._price(below)
+
+
+def test_sums_differ_by_waves_if_these_run_within_the_bands():
+    apart = np.linspace(0.0, 2.0, 21)
+    assert "begin to run along the rail at 600 Hz only" in explanations._about_sums(apart, 600.0)
+    said = explanations._about_sums(apart, 500.0)
+    assert "farthest apart at 500 Hz, by 2.0 dB: waves, which run along the rail from about 500 Hz" in said
+
+
+@pytest.mark.parametrize(
+    ("degrees", "said"),
+    [(44, "in step"), (46, "out of step"), (134, "out of step"), (136, "against each other")],
+)
+def test_phases_are_named_by_their_angle(degrees, said):
+    assert explanations._phase(np.exp(1j * np.radians(degrees)), 1.0).startswith(said)
+    assert explanations._phase(1.0, np.exp(1j * np.radians(degrees))).startswith(said)

@@ -67,7 +67,7 @@ def test_every_lesson_is_true_by_the_solver(lesson):
 
 @pytest.mark.parametrize("lesson", SHIPPED, ids=lambda lesson: lesson.file)
 def test_every_level_in_a_revealed_text_is_computed(lesson):
-    """Only the chain's 12 and 24 dB per octave are written: they are theory, asserted elsewhere."""
+    """Only the lumped model's 12 and 24 dB per octave are written: they are theory, asserted elsewhere."""
     written = re.sub(r"\{\{.*?\}\}", "", lesson.reveal)
     assert set(re.findall(r"(\d+) dB", written)) <= {"12", "24"}
 

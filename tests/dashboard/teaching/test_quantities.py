@@ -30,7 +30,7 @@ def test_figures_are_those_of_the_solver():
     for name in ("loaded_track", "coupled_block", "block_on_boot"):
         assert written(name) == f"{getattr(frequencies, name):.3g} Hz"
     assert written("cut_on") == f"{frequencies.cut_on[0]:.3g} Hz"
-    assert written("chain_upper") == f"{tig.lumped_frequencies(SOFTER).coupled[1]:.3g} Hz"
+    assert written("lumped_upper") == f"{tig.lumped_frequencies(SOFTER).coupled[1]:.3g} Hz"
     assert written("supports") == f"{tig.effective_supports(SOFTER):.3g}"
     boot = solution.boot_law
     assert written("stiffening(500)") == f"{boot.stiffness(500.0) / boot.stiffness(50.0):.3g}"
@@ -115,7 +115,7 @@ def test_claims_that_cannot_be_read_are_told(text, says):
         read_claim(text)
 
 
-@pytest.mark.parametrize("name", ["coupled_block", "block_on_boot", "chain_upper", "block_mass"])
+@pytest.mark.parametrize("name", ["coupled_block", "block_on_boot", "lumped_upper", "block_mass"])
 def test_what_a_single_stage_track_lacks_is_told(name):
     with pytest.raises(QuantityError, match="single-stage"):
         read_placeholder(name)(SLAB, SLAB)
