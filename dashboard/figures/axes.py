@@ -117,21 +117,20 @@ def zero_line():
 
 def blank_figure(aria_label="", **options):
     """Return an empty figure with the tools that all have, and a name that screen readers tell."""
-    plot = figure(
-        html_attributes={
-            "role": "figure",
-            "aria-label": aria_label or options["y_axis_label"],
-        },
-        tools=[PanTool(), BoxZoomTool(), WheelZoomTool(dimensions="width"), ResetTool(), SaveTool()],
-        toolbar_location="right",
-        sizing_mode="stretch_width",
-        **options,
-    )
+    plot = figure(**options)
+    dress(plot, aria_label or options["y_axis_label"])
+    return plot
+
+
+def dress(plot, aria_label):
+    """Give a figure the tools and the sizes of text that all have, and a name that screen readers tell."""
+    plot.html_attributes = {"role": "figure", "aria-label": aria_label}
+    plot.tools = [PanTool(), BoxZoomTool(), WheelZoomTool(dimensions="width"), ResetTool(), SaveTool()]
+    plot.update(toolbar_location="right", sizing_mode="stretch_width")
     plot.toolbar.logo = None
     plot.toolbar.autohide = True
     for axis in plot.axis:
         keep(axis, major_label_text_font_size=theme.TICK_SIZES, axis_label_text_font_size=theme.AXIS_SIZES)
-    return plot
 
 
 def keep(model, **looks):

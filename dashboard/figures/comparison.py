@@ -1,25 +1,31 @@
 """The picture of differences between designs, band by band.
 
-The one rule: the base is the zero line, and every design has the colour and dash that it has elsewhere.
+The base is the zero line, and every design has the colour and dash that it has elsewhere.
 """
 
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJSHover, HoverTool
 
 from dashboard import theme
-from dashboard.figures.axes import LEVEL_STEP, AxisEnds, blank_figure, show_bands, zero_line
+from dashboard.figures.axes import LEVEL_STEP, AxisEnds
 from dashboard.figures.insertion_gain import ALONE_TOOLTIPS, NO_LEVELS, PIN_HOVER, pin_columns
-from dashboard.figures.legends import MOST_CURVES, PinnedLines, legend_entry, new_legend, update_legend
+from dashboard.figures.legends import MOST_CURVES
+from dashboard.figures.overlays import BandCurves, curve_name
 
 LEAST_REACH = 4.0
 """What the axis of differences shows at least on either side [dB]."""
 
-CURRENT = MOST_CURVES
-"""Place of the design at hand among the differences, behind those of the pins."""
+CURRENT = f"pin_{MOST_CURVES}"
+"""Column of the current design among the differences, behind those of the pins."""
+
+LOOKS = {f"pin_{place}": {"line_width": theme.PINNED_LINE_WIDTH} for place in range(MOST_CURVES)} | {
+    CURRENT: {"line_width": theme.LINE_WIDTH}
+}
+"""Look of each curve that no design changes."""
 
 
 class BaseDifferenceFigure:
-    """Insertion gain less that of a base, for the design at hand and for pinned ones.
+    """Insertion gain less that of a base, for the current design and for pinned ones.
 
     Attributes
     ----------
@@ -27,38 +33,24 @@ class BaseDifferenceFigure:
         The figure.
     differences : bokeh.models.ColumnDataSource
         Named ``pin_differences``: per band its ``label``, its ``centre`` [Hz], the differences of pins
-        ``pin_0`` to ``pin_7`` and, as ``pin_8``, that of the design at hand [dB]; NaN where there is none.
+        ``pin_0`` to ``pin_7`` and, as ``pin_8``, that of the current design [dB]; NaN where there is none.
     """
 
     def __init__(self):
-        self.differences = ColumnDataSource(name="pin_differences", data=_columns((), None))
+        self.differences = ColumnDataSource(name="pin_differences", data=_columns({}))
         self._ends = AxisEnds((-10.0, 10.0))
-        self.model = blank_figure(
+        self._curves = BandCurves(
+            self.differences,
+            LOOKS,
+            "dB re base",
+            "Difference of insertion gain from the base per one-third-octave band",
             name="pin_difference_figure",
-            aria_label="Difference of insertion gain from the base per one-third-octave band",
-            x_axis_type="log",
             y_range=self._ends.model,
-            x_axis_label="One-third-octave band, Hz",
-            y_axis_label="dB re base",
             stylesheets=[theme.MEDIUM],
         )
-        show_bands(self.model)
-        self.model.add_layout(zero_line())
-        self._legend = new_legend(self.model, "bottom_left")
-        self._hand = self.model.line(
-            x="centre",
-            y=f"pin_{CURRENT}",
-            source=self.differences,
-            line_color=theme.THIS_DESIGN,
-            line_width=theme.LINE_WIDTH,
-        )
-        names = [f"pin_{place}" for place in range(MOST_CURVES)]
-        self._pinned = PinnedLines(self.model, self._hand, [self.differences] * MOST_CURVES, "centre", names)
-        self._entry = legend_entry(self.model, "this design", self._hand)
-        told = CustomJSHover(args={"pins": self.differences}, code=PIN_HOVER)
-        self._hover = HoverTool(
-            renderers=[self._hand], mode="vline", tooltips=ALONE_TOOLTIPS, formatters={"@centre": told}
-        )
+        self.model = self._curves.model
+        differences = CustomJSHover(args={"pins": self.differences}, code=PIN_HOVER)
+        self._hover = HoverTool(renderers=[], mode="vline", formatters={"@centre": differences})
         self.model.add_tools(self._hover)
 
     def show(self, base, results):
@@ -72,25 +64,20 @@ class BaseDifferenceFigure:
             Designs with a solution, the base not among them; the current design, if there, is the first.
         """
         results = () if base.levels is None else results
-        pinned = [each for each in results if each.key is not None]
-        differences = [each.levels - base.levels for each in pinned]
-        hand = next((each.levels - base.levels for each in results if each.key is None), None)
-        self.differences.data = _columns(differences, hand)
-        self._pinned.show(pinned)
-        self._hand.visible = hand is not None
-        own = [] if hand is None else [self._entry]
-        update_legend(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
-        tooltips = [] if hand is None else [("this design", f"@centre{{{CURRENT}}}")]
-        tooltips += [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)]
+        columns = [CURRENT, *LOOKS] if any(each.key is None for each in results) else LOOKS
+        drawn = dict(zip(columns, results, strict=False))
+        differences = {name: each.levels - base.levels for name, each in drawn.items()}
+        self.differences.data = _columns(differences)
+        self._curves.show(drawn)
+        values = [
+            (curve_name(each), f"@centre{{{name.removeprefix('pin_')}}}") for name, each in drawn.items()
+        ]
         self._hover.update(
-            renderers=self._pinned.lines[:1] if hand is None else [self._hand],
-            tooltips=ALONE_TOOLTIPS + tooltips,
+            renderers=[self._curves.lines[name] for name in drawn][:1], tooltips=ALONE_TOOLTIPS + values
         )
-        drawn = [*differences, *([] if hand is None else [hand])]
-        reach = max([LEAST_REACH, *(np.abs(each).max() for each in drawn)])
+        reach = max([LEAST_REACH, *(np.abs(each).max() for each in differences.values())])
         self._ends.show(-reach, reach, LEVEL_STEP)
 
 
-def _columns(differences, hand):
-    own = NO_LEVELS if hand is None else hand
-    return {**pin_columns(differences), f"pin_{CURRENT}": own}
+def _columns(differences):
+    return {**pin_columns(()), CURRENT: NO_LEVELS, **differences}

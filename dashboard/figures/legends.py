@@ -103,14 +103,19 @@ def are_the_same(some, others):
 def new_legend(plot, location):
     """Return a figure's legend, empty as yet; it is made first, so that curves are drawn behind it."""
     legend = Legend(items=[], location=location)
+    dress_legend(legend)
+    plot.add_layout(legend)
+    return legend
+
+
+def dress_legend(legend):
+    """Give a legend the sizes that all have."""
     keep(
         legend,
         label_text_font_size=theme.TICK_SIZES,
         glyph_width=(theme.LEGEND_LINE, theme.LEGEND_LINE),
         background_fill_alpha=(theme.LEGEND_ALPHA, theme.LEGEND_ALPHA),
     )
-    plot.add_layout(legend)
-    return legend
 
 
 def update_legend(legend, entries, shown):
