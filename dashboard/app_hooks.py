@@ -1,6 +1,6 @@
 """What the server does before the first session and after the last.
 
-The one rule: no session compiles anything; at a first start the page is there meanwhile, and says so.
+No session compiles anything; at a first start the page is there meanwhile, and says so.
 """
 
 import gc

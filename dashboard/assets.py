@@ -1,7 +1,7 @@
 """Where the files of the folder ``assets`` are: pictures and texts that are not code.
 
 A wheel keeps that folder as ``trackig_assets`` beside this package, since "assets" alone would be
-anybody's; a clone, and so an editable installation, has it as ``assets``. The one rule: whoever
+anybody's; a clone, and so an editable installation, has it as ``assets``. Whoever
 wants such a file asks here.
 """
 

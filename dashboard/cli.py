@@ -3,7 +3,7 @@
 SI units go in (N/m, kg, m), as everywhere in the core; Hz and dB come out. Exit codes: 0 when all went
 well, 1 when a specification is not met, 2 when the input is at fault, which is told in one line.
 
-The one rule: nothing here computes; what is printed comes from the core, as anybody's script would have it.
+Nothing here computes; what is printed comes from the core, as anybody's script would have it.
 """
 
 import argparse
@@ -124,7 +124,7 @@ def _add_solve(commands):
     command.add_argument(
         "track",
         metavar="PRESET|FILE.toml",
-        help=f"{', '.join(tig.PRESETS)}, or a study, for its design at hand",
+        help=f"{', '.join(tig.PRESETS)}, or a study, for its current design",
     )
     command.add_argument(
         "--set",
@@ -148,7 +148,7 @@ def _add_check(commands):
         "check",
         _check,
         help="Hold a study's designs against its specification; exit with 1 if any fails.",
-        epilog="Checked are the design at hand and the pinned designs that are shown, not the hidden ones.",
+        epilog="Checked are the current design and the pinned designs that are shown, not the hidden ones.",
     )
     command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
     command.add_argument(
@@ -166,7 +166,7 @@ def _add_report(commands):
         "report",
         _report,
         help="Write a report of a study as one HTML file.",
-        epilog="Reported are the design at hand and the pinned designs that are shown.",
+        epilog="Reported are the current design and the pinned designs that are shown.",
     )
     command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
     command.add_argument("output", type=Path, metavar="OUT.html", help="where the report is written")

@@ -1,6 +1,6 @@
 """Colours, sizes and number formats: the look of the dashboard, in one file.
 
-The one rule: no colour code and no number format stands anywhere else. Colours carry meaning by
+No colour code and no number format stands anywhere else. Colours carry meaning by
 quantity, are told apart by colour-blind readers (after Okabe and Ito, 2008), and hold a contrast
 of at least 3 against the light and the dark paper (WCAG 2.2, 1.4.11), since figures keep their
 colours when the theme is switched.
@@ -10,7 +10,7 @@ LIGHT_PAPER = "#ffffff"
 DARK_PAPER = "#121212"
 
 THIS_DESIGN = "#2b83c6"
-"""The design at hand: its insertion gain, its total force."""
+"""The current design: its insertion gain, its total force."""
 
 LOADED_TRACK = "#d55e00"
 """All that concerns the loaded track: its frequency, the force under the wheel."""
@@ -38,7 +38,7 @@ DESIGN_COLOURS = (
     "#9e5248",
 )
 """Pinned designs: the hues of Okabe and Ito, as light and as dark as both papers allow. Those that share a
-dash, and the design at hand, differ for protanopes, deuteranopes and tritanopes too."""
+dash, and the current design, differ for protanopes, deuteranopes and tritanopes too."""
 
 DESIGN_COLOUR_NAMES = ("orange", "purple", "green", "olive", "violet", "vermilion", "brown", "russet")
 """What the colours of pinned designs are called."""

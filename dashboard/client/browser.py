@@ -1,7 +1,7 @@
 """What only the browser knows: keys that are pressed anywhere on the page, and which theme its user wants.
 
 The theme that was chosen last is kept in the browser's own storage; before any was chosen, the one that the
-operating system asks for is taken. The one rule: nothing is drawn here.
+operating system asks for is taken. Nothing is drawn here.
 """
 
 import panel as pn

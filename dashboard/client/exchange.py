@@ -3,7 +3,7 @@
 Panel's own file widgets are not used: a download of what was downloaded before does nothing, an upload is
 not bounded in Python, and one that is refused in the browser ends in a traceback on the server.
 
-The one rule: whatever comes from the browser is hostile. Messages of another form are dropped, files are
+Whatever comes from the browser is hostile. Messages of another form are dropped, files are
 bounded before anybody reads them, and callbacks get plain bytes or text.
 """
 

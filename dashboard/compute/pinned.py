@@ -1,7 +1,7 @@
 """The pictures of pinned designs: the paper's runs, solved off the event loop, from the sessions' store.
 
-A session asks for one of them at a time, so that its pins never take every worker from the designs at hand.
-The one rule: a pin that the store knows has its picture at once, and a pin that is gone has none.
+A session asks for one of them at a time, so that its pins never take every worker from the current designs.
+A pin that the store knows has its picture at once, and a pin that is gone has none.
 """
 
 import asyncio

@@ -4,7 +4,7 @@ A subject asks a :class:`Question`: a function of :mod:`dashboard.teaching.expla
 The newest question is answered in the threads that all sessions share, and answers are kept, since students
 ask alike.
 
-The one rule: nothing is worked out that nobody looks at, and only the newest question is.
+Nothing is worked out that nobody looks at, and only the newest question is.
 """
 
 import asyncio

@@ -5,7 +5,7 @@ still wait are dropped: pictures follow the hand. When inputs rest, the paper's 
 the picture's place. A paper run under way gives way to newer inputs at once. Solutions come from stores
 that all sessions share.
 
-The one rule: the last good picture stays until a better one is there, and no picture follows one of newer
+The last good picture stays until a better one is there, and no picture follows one of newer
 inputs.
 """
 

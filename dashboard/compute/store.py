@@ -2,7 +2,7 @@
 
 Sessions that ask for the same key wait for one job; a finished value is kept until newer ones
 push it out. General-purpose caches make each waiter block a thread and cannot tell whether
-anybody still waits. The one rule: a job runs on as long as somebody waits for it, and no longer.
+anybody still waits. A job runs on as long as somebody waits for it, and no longer.
 """
 
 import threading

@@ -4,7 +4,7 @@ Assigning a source costs a tenth of a millisecond where a new figure costs a hun
 Sources carry names, so that tests can read in the browser what is drawn. Figures know data and
 style, no widgets and no server.
 
-The one rule: axes stay put while they can, so that the eye sees the change; they move when data
+Axes stay put while they can, so that the eye sees the change; they move when data
 would leave them, or would fill less than half.
 """
 

@@ -1,6 +1,6 @@
 """The pictures of the tab in which a track is understood; built once, then fed.
 
-The one rule: one look for one thing: this design is blue, what theory says of it violet, what it is compared
+One look for one thing: this design is blue, what theory says of it violet, what it is compared
 with dashed or thin.
 """
 
@@ -186,7 +186,7 @@ class PickFigure(BandsFigure):
 
 
 class SweepFigure:
-    """Natural frequencies against one slider, chain beside beam.
+    """Natural frequencies against one slider, lumped model beside beam.
 
     Attributes
     ----------
@@ -195,14 +195,14 @@ class SweepFigure:
     sweep : bokeh.models.ColumnDataSource
         Named ``sweep``: ``value`` [display unit] and a column per curve [Hz].
     present : bokeh.models.ColumnDataSource
-        Named ``present``: ``value`` and ``frequency`` [Hz] of the design at hand.
+        Named ``present``: ``value`` and ``frequency`` [Hz] of the current design.
     """
 
     CURVES = (
         Curve("uncoupled_wheel", "uncoupled wheel", theme.PRESET_GHOST, [2, 3], 1),
         Curve("uncoupled_block", "uncoupled block", theme.PRESET_GHOST, [7, 4], 1),
-        Curve("lower", "chain, lower", theme.LOADED_TRACK, theme.SECOND_DASH),
-        Curve("upper", "chain, upper", theme.COUPLED_BLOCK, theme.SECOND_DASH),
+        Curve("lower", "lumped model, lower", theme.LOADED_TRACK, theme.SECOND_DASH),
+        Curve("upper", "lumped model, upper", theme.COUPLED_BLOCK, theme.SECOND_DASH),
         Curve("loaded_track", "beam: loaded track", theme.LOADED_TRACK, width=theme.LINE_WIDTH),
         Curve("coupled_block", "beam: coupled block", theme.COUPLED_BLOCK, width=theme.LINE_WIDTH),
         Curve("cut_on", "beam: waves begin", theme.THEORY, [1, 3]),
@@ -274,13 +274,13 @@ class SweepFigure:
         self.sweep.data = data
 
     def point(self, value, frequencies):
-        """Mark the design at hand: its value, and its natural frequencies [Hz]."""
+        """Mark the current design: its value, and its natural frequencies [Hz]."""
         self._now.location = value
         self.present.data = {"value": [value] * len(frequencies), "frequency": list(frequencies)}
 
 
 class SlopesFigure(BandsFigure):
-    """Insertion gain, and on demand the straight asymptotes of its chain.
+    """Insertion gain, and on demand the straight asymptotes of its lumped model.
 
     Attributes
     ----------
@@ -390,11 +390,11 @@ class StiffReferenceFigure:
 
 
 class LumpedVsBeamFigure(BandsFigure):
-    """Insertion gain of the chain beside that of the beam; bands where the chain will do are shaded."""
+    """Insertion gain of the lumped model beside that of the beam; where it will do, bands are shaded."""
 
     CURVES = (
         Curve("beam", "beam: rail, waves and all", theme.THIS_DESIGN, width=theme.LINE_WIDTH),
-        Curve("chain", "chain: wheel, block, springs", theme.LOADED_TRACK, theme.SECOND_DASH),
+        Curve("lumped", "lumped model: wheel, block, springs", theme.LOADED_TRACK, theme.SECOND_DASH),
     )
 
     def __init__(self):
@@ -413,6 +413,6 @@ class LumpedVsBeamFigure(BandsFigure):
 
     def show_comparison(self, comparison):
         """Draw a trackig_core.LumpedComparison."""
-        self.show(beam=comparison.beam, chain=comparison.lumped)
+        self.show(beam=comparison.beam, lumped=comparison.lumped)
         good = comparison.good_enough
         self.good.data = {"left": tig.BAND_EDGES[:-1][good], "right": tig.BAND_EDGES[1:][good]}

@@ -1,6 +1,6 @@
-"""The pictures of the tab in which a run is held against theory; built once, then fed.
+"""The pictures of the tab in which a run is compared with theory; built once, then fed.
 
-The one rule: what comes from the run is drawn as dots or bars, what comes from theory as lines.
+What comes from the run is drawn as dots or bars, what comes from theory as lines.
 """
 
 import numpy as np
@@ -40,7 +40,7 @@ SLOPE_ONE, SLOPE_TWO = "slope 1", "slope 2"
 
 
 class ComparisonFigure:
-    """Insertion gain of the run, and of the exact twin.
+    """Insertion gain of the run, and of the frequency-domain solution.
 
     Attributes
     ----------
@@ -88,14 +88,14 @@ class ComparisonFigure:
         self.model.yaxis.axis_label = words
 
     def show(self, run, exact):
-        """Draw the levels of the run and of the exact twin (21,) [dB]."""
+        """Draw the levels of the run and of the frequency-domain solution (21,) [dB]."""
         seen = np.concatenate([run, exact])
         self._levels.show(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM, LEVEL_STEP)
         self.bands.data = _compared(run, exact)
 
 
 class DifferenceFigure:
-    """How far the run is from the exact twin, band by band, on an axis of its own.
+    """How far the run is from the frequency-domain solution, band by band, on an axis of its own.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class DifferenceFigure:
 
 
 class ReceptanceFigure:
-    """Point receptance of a preset: the twin, and an independent package.
+    """Point receptance of a preset: the frequency-domain solution, and an independent package.
 
     Attributes
     ----------
@@ -164,7 +164,7 @@ class ReceptanceFigure:
             source=self.twin,
             line_color=theme.THEORY,
             line_width=theme.THIN_LINE_WIDTH,
-            legend_label="exact twin, 24 elements a bay",
+            legend_label="frequency-domain solution, 24 elements a bay",
         )
         dots = self.model.scatter(
             x="frequency",
@@ -193,7 +193,7 @@ class ReceptanceFigure:
         self.model.legend.location = "bottom_left"
 
     def show(self, peer, frequency, receptance):
-        """Draw the peer's receptance and the twin's, over its own frequencies."""
+        """Draw the peer's receptance and the frequency-domain solution's, over its own frequencies."""
         scale = NANOMETRES_PER_KILONEWTON
         self.peer.data = {
             "frequency": peer.frequency,
@@ -272,7 +272,8 @@ class ElementFigure:
         )
         self.model = _convergence_figure("element_figure", "Element length, mm")
         _slope(self.model, self.errors, "length", "two", SLOPE_TWO)
-        _errors(self.model, self.errors, "length", "error", theme.THIS_DESIGN, "circle", "exact twin")
+        words = "frequency-domain solution"
+        _errors(self.model, self.errors, "length", "error", theme.THIS_DESIGN, "circle", words)
         _legend_above(self.model)
         self._run = Span(
             dimension="height", line_color=theme.LOADED_TRACK, line_dash="dotdash", name="run_element"

@@ -1,6 +1,6 @@
 """Undo and redo of what the user sets, step by step.
 
-A drag moves an input many times; it is one step all the same. The one rule: no clock and no inputs in
+A drag moves an input many times; it is one step all the same. No clock and no inputs in
 here; whoever notes a change says what changed and when, so that it can be tested without waiting.
 """
 

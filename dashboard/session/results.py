@@ -188,7 +188,7 @@ class Outcome(param.Parameterized):
         class_=VerifiedSummary,
         default=None,
         allow_None=True,
-        doc="The picture that was last held against theory.",
+        doc="The picture that was last compared with theory.",
     )
     problem = param.String(default="", doc="Why the picture is not that of the inputs; empty when it is.")
 

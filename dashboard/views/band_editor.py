@@ -1,6 +1,6 @@
 """One value per band, as a user gives it: typed into a table, pasted, or opened from a file.
 
-The one rule: what is given is taken as a whole or not at all; then a message says where it is at fault,
+What is given is taken as a whole or not at all; then a message says where it is at fault,
 and what was there stays.
 """
 

@@ -1,6 +1,6 @@
 """Natural frequencies as large figures, each with a sentence on what it is.
 
-The one rule: a frequency is never shown without saying of what.
+A frequency is never shown without saying of what.
 """
 
 import panel as pn

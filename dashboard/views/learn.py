@@ -1,7 +1,6 @@
 """The tab in which a track is understood: a menu of subjects, of which one is looked at.
 
-A subject is made when it is first looked at, and its questions are answered only while it is. The one
-rule: what nobody looks at costs nothing.
+A subject is made when it is first looked at, and its questions are answered only while it is.
 """
 
 from functools import partial
@@ -28,7 +27,7 @@ class Learn(Tab):
     outcome : Outcome
         Whose design is explained.
     definition : GainDefinition
-        How insertion gain is reckoned.
+        How insertion gain is computed.
     """
 
     title = "Learn"

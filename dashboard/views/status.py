@@ -1,6 +1,6 @@
 """The status line: what the solver does, what it noted, and what went wrong.
 
-The one rule: it says in words whatever the pictures cannot show, on one line whose height never
+It says in words whatever the pictures cannot show, on one line whose height never
 changes, so that the pictures below stay put. What does not fit is told when the pointer rests on it.
 """
 

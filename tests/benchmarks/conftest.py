@@ -12,7 +12,7 @@ from trackig_core.track.viscoelastic_law import laws
 DESIGN = tig.PRESETS["booted-block-low-mass"]
 
 STEPS = 1000
-"""Time steps of the transcription that are timed; the whole run is reckoned from them."""
+"""Time steps of the transcription that are timed; the whole run is computed from them."""
 
 _rows = []
 _remarks = []

@@ -8,7 +8,7 @@ so its dynamic stiffness is K(w) = k_inf - sum_j k_j / (1 + i w tau_j), three te
 factor Im K / Re K. Such a material is causal, so it stiffens with frequency as much as its damping
 demands. N/m, s, Hz. Source: the paper (see :mod:`trackig_core.track.design`), damping section.
 
-The one rule: Re K at 50 Hz is exactly the dynamic stiffness that the designer stated; a table of measured
+Re K at 50 Hz is exactly the dynamic stiffness that the designer stated; a table of measured
 stiffness is met as well as three terms can.
 """
 

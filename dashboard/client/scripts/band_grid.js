@@ -1,6 +1,6 @@
 // A table of one row per band: a box for the value that the user gives, and what came of it per design.
 //
-// The one rule: text is set as text, never as markup, and a box in which somebody types is left alone.
+// Text is set as text, never as markup, and a box in which somebody types is left alone.
 
 function element(name, words = "", properties = {}) {
   const made = Object.assign(document.createElement(name), properties)

@@ -1,6 +1,6 @@
 // What the server cannot do without the browser: the address bar, the clipboard, files, and a memory that outlives the server.
 //
-// The one rule: what is kept is never overwritten before it was offered to a server that does not know it.
+// What is kept is never overwritten before it was offered to a server that does not know it.
 
 const MEMORY = "trackig"
 const PATIENCE = 8000 // ms until a plot in another tab must have been drawn

@@ -168,7 +168,7 @@ def test_four_definitions_and_the_false_peak_are_drawn(outcome, definition):
 def test_the_ladder_shades_the_bands_that_agree(outcome, definition):
     subject = looked_at(LumpedVsBeam(outcome, definition))
     comparison = tig.compare_with_beam(BLOCK)
-    np.testing.assert_allclose(subject.figure.bands.data["chain"], comparison.lumped)
+    np.testing.assert_allclose(subject.figure.bands.data["lumped"], comparison.lumped)
     np.testing.assert_allclose(subject.figure.good.data["left"], tig.BAND_EDGES[:-1][comparison.good_enough])
 
 
