@@ -10,20 +10,23 @@ from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
-from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
+from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store, workers
 from dashboard.fields import OPENING_PRESET
+from dashboard.figures import overlays
 
 log = logging.getLogger(__name__)
 
 
 def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
-    """Have the kernels compiled while pages are served, then the presets solved, the opening one first."""
+    """Have kernels compiled, presets solved and HoloViews loaded while pages are served."""
     IOLoop.current().asyncio_loop.set_exception_handler(handle_message)
     # what is imported stays: looking through it for garbage would stop every session for 0.1 s now and then
     gc.freeze()
     compiled()
     for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
         shared_store().request((tig.PRESETS[key], AT_REST))
+    # so that nobody's first look at a picture that is described with it waits for its import
+    workers().submit(overlays.load)
 
 
 def handle_message(loop, context):

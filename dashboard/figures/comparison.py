@@ -4,13 +4,13 @@ The base is the zero line, and every design has the colour and dash that it has 
 """
 
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJSHover, HoverTool
+from bokeh.models import ColumnDataSource, CustomJSHover, GlyphRenderer, HoverTool
 
 from dashboard import theme
-from dashboard.figures.axes import LEVEL_STEP, AxisEnds
+from dashboard.figures.axes import LEVEL_STEP, AxisEnds, show_bands
 from dashboard.figures.insertion_gain import ALONE_TOOLTIPS, NO_LEVELS, PIN_HOVER, pin_columns
-from dashboard.figures.legends import MOST_CURVES
-from dashboard.figures.overlays import BandCurves, curve_name
+from dashboard.figures.legends import MOST_CURVES, PinnedLines, dress_legend, legend_entry, update_legend
+from dashboard.figures.overlays import band_overlay, rendered
 
 LEAST_REACH = 4.0
 """What the axis of differences shows at least on either side [dB]."""
@@ -18,10 +18,8 @@ LEAST_REACH = 4.0
 CURRENT = f"pin_{MOST_CURVES}"
 """Column of the current design among the differences, behind those of the pins."""
 
-LOOKS = {f"pin_{place}": {"line_width": theme.PINNED_LINE_WIDTH} for place in range(MOST_CURVES)} | {
-    CURRENT: {"line_width": theme.LINE_WIDTH}
-}
-"""Look of each curve that no design changes."""
+LOOKS = {CURRENT: {"line_color": theme.THIS_DESIGN, "line_width": theme.LINE_WIDTH}}
+"""Look of the curve that is always there; those of pinned designs are made when they are first needed."""
 
 
 class BaseDifferenceFigure:
@@ -37,20 +35,31 @@ class BaseDifferenceFigure:
     """
 
     def __init__(self):
-        self.differences = ColumnDataSource(name="pin_differences", data=_columns({}))
+        self.differences = ColumnDataSource(name="pin_differences", data=_columns((), None))
         self._ends = AxisEnds((-10.0, 10.0))
-        self._curves = BandCurves(
-            self.differences,
-            LOOKS,
-            "dB re base",
+        self.model = rendered(
+            band_overlay(LOOKS, "dB re base"),
             "Difference of insertion gain from the base per one-third-octave band",
             name="pin_difference_figure",
             y_range=self._ends.model,
             stylesheets=[theme.MEDIUM],
         )
-        self.model = self._curves.model
+        show_bands(self.model)
+        self._legend = self.model.legend[0]
+        dress_legend(self._legend)
+        (self._current,) = self.model.select({"type": GlyphRenderer})
+        self._current.data_source = self.differences
+        self._entry = legend_entry(self.model, "this design", self._current)
+        names = [f"pin_{place}" for place in range(MOST_CURVES)]
+        sources = [self.differences] * MOST_CURVES
+        self._pinned = PinnedLines(self.model, self._current, sources, "centre", names)
         differences = CustomJSHover(args={"pins": self.differences}, code=PIN_HOVER)
-        self._hover = HoverTool(renderers=[], mode="vline", formatters={"@centre": differences})
+        self._hover = HoverTool(
+            renderers=[self._current],
+            mode="vline",
+            tooltips=ALONE_TOOLTIPS,
+            formatters={"@centre": differences},
+        )
         self.model.add_tools(self._hover)
 
     def show(self, base, results):
@@ -64,20 +73,24 @@ class BaseDifferenceFigure:
             Designs with a solution, the base not among them; the current design, if there, is the first.
         """
         results = () if base.levels is None else results
-        columns = [CURRENT, *LOOKS] if any(each.key is None for each in results) else LOOKS
-        drawn = dict(zip(columns, results, strict=False))
-        differences = {name: each.levels - base.levels for name, each in drawn.items()}
-        self.differences.data = _columns(differences)
-        self._curves.show(drawn)
-        values = [
-            (curve_name(each), f"@centre{{{name.removeprefix('pin_')}}}") for name, each in drawn.items()
-        ]
+        pinned = [each for each in results if each.key is not None]
+        differences = [each.levels - base.levels for each in pinned]
+        current = next((each.levels - base.levels for each in results if each.key is None), None)
+        self.differences.data = _columns(differences, current)
+        self._pinned.show(pinned)
+        self._current.visible = current is not None
+        own = [] if current is None else [self._entry]
+        update_legend(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
+        tooltips = [] if current is None else [("this design", f"@centre{{{MOST_CURVES}}}")]
+        tooltips += [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)]
         self._hover.update(
-            renderers=[self._curves.lines[name] for name in drawn][:1], tooltips=ALONE_TOOLTIPS + values
+            renderers=self._pinned.lines[:1] if current is None else [self._current],
+            tooltips=ALONE_TOOLTIPS + tooltips,
         )
-        reach = max([LEAST_REACH, *(np.abs(each).max() for each in differences.values())])
+        drawn = [*differences, *([] if current is None else [current])]
+        reach = max([LEAST_REACH, *(np.abs(each).max() for each in drawn)])
         self._ends.show(-reach, reach, LEVEL_STEP)
 
 
-def _columns(differences):
-    return {**pin_columns(()), CURRENT: NO_LEVELS, **differences}
+def _columns(differences, current):
+    return {**pin_columns(differences), CURRENT: NO_LEVELS if current is None else current}
