@@ -22,7 +22,7 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.fields import FIELDS, NEWTON_PER_METRE
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
-from dashboard.session.results import DesignResult, gain_of
+from dashboard.session.results import DesignResult
 
 PLOT_WIDTH = 7.3
 """Width of a plot [inch]: that of the text on A4."""
@@ -135,7 +135,7 @@ def _results(study, summaries):
 def _result(study, record, summary):
     if summary is None:
         return DesignResult(record)
-    gain = gain_of(summary.solution, study.view.reference, study.view.summation)
+    gain = summary.solution.gain_for(study.view.reference, study.view.summation)
     verdict = None if study.specification is None else study.specification.check(gain.levels)
     level = None if study.source is None else study.source.with_track(gain.levels)
     return DesignResult(record, summary, gain, verdict, level)

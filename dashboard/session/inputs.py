@@ -19,7 +19,6 @@ from dashboard.fields import (
     to_display,
     to_si,
 )
-from dashboard.session.results import gain_of
 
 
 def design_of(values):
@@ -219,7 +218,7 @@ class GainDefinition(param.Parameterized):
 
     def gain(self, solution):
         """Return the insertion gain of a solution (trackig_core.InsertionGain), computed once."""
-        return gain_of(solution, self.reference, self.summation)
+        return solution.gain_for(self.reference, self.summation)
 
     def levels_of(self, spectrum, solution):
         """Return the insertion gain of another spectrum of the design that was solved.

@@ -2,7 +2,6 @@
 
 import dataclasses
 from dataclasses import dataclass
-from weakref import WeakKeyDictionary
 
 import numpy as np
 import param
@@ -10,35 +9,6 @@ import param
 import trackig_core as tig
 from dashboard import theme
 from dashboard.fields import KILONEWTON
-
-_GAINS = WeakKeyDictionary()
-
-
-def gain_of(solution, reference, summation):
-    """Return the insertion gain of a solution by any definition; it is computed once and kept with it.
-
-    Parameters
-    ----------
-    solution : trackig_core.Solution
-        The solution.
-    reference, summation : str
-        As for :func:`trackig_core.insertion_gain`.
-
-    Returns
-    -------
-    trackig_core.InsertionGain
-        Levels [dB], and the energies behind them.
-    """
-    gains = _GAINS.setdefault(solution, {(solution.gain.reference, solution.gain.summation): solution.gain})
-    if (reference, summation) not in gains:
-        gains[reference, summation] = tig.insertion_gain(
-            solution.spectrum,
-            solution.design,
-            solution.natural_frequencies.loaded_track,
-            reference=reference,
-            summation=summation,
-        )
-    return gains[reference, summation]
 
 
 @dataclass(frozen=True, eq=False)

@@ -89,6 +89,7 @@ class Lessons(Subject):
         self.verdict.visible, self.revealed.visible = False, False
         for part in (self.begin, self.change, self.reveal, self.answers):
             part.disabled = lesson is None
+        self.reveal.disabled = True  # until there is an answer
         if lesson is None:
             self.question.asked = (_nothing,)
             return
@@ -97,6 +98,8 @@ class Lessons(Subject):
         # a radio's words are plain text, whatever they hold
         self.answers.param.update(options=[choice.text for choice in lesson.choices], value=None)
         self.question.asked = self.ask(lesson)
+        if self.question.answered == self.question.asked:  # it was open already
+            self._answered()
 
     def ask(self, lesson):
         """Return the question about a lesson."""
@@ -119,6 +122,7 @@ class Lessons(Subject):
         self.revealed.object = _without_pictures(answer.reveal)
         faults = [*self.faults, *answer.problems]
         self.broken.param.update(object=_escaped(faults), visible=bool(faults))
+        self.reveal.disabled = False
 
     def _begin(self, _):
         set_sliders(self._inputs, self.menu.value.start)

@@ -198,6 +198,12 @@ def test_the_shape_follows_cursor_slider_and_buttons(outcome, definition):
     assert subject.pick.cursor.location == natural.coupled_block
 
 
+def test_nothing_can_be_revealed_before_there_is_an_answer(outcome, definition, inputs):
+    subject = Lessons(outcome, definition, inputs)
+    assert subject.reveal.disabled
+    assert not looked_at(subject).reveal.disabled
+
+
 @pytest.mark.parametrize("number", range(6))
 def test_each_lesson_asks_and_reveals(outcome, definition, inputs, number):
     subject = looked_at(Lessons(outcome, definition, inputs))
@@ -205,6 +211,7 @@ def test_each_lesson_asks_and_reveals(outcome, definition, inputs, number):
     subject.menu.value = lesson
     assert subject.answers.options == [choice.text for choice in lesson.choices]
     assert "{{" not in subject.introduction.object
+    assert not subject.reveal.disabled
     subject.reveal.clicks += 1
     assert not subject.revealed.visible
     assert "Choose" in subject.verdict.object

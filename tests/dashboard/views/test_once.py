@@ -18,6 +18,7 @@ from dashboard.session.results import Outcome
 from dashboard.theme import MOST_PINNED
 from dashboard.views import compare, received_level, specification
 from dashboard.views.explore import Explore
+from trackig_core import solution as solution_module
 
 OPENING = tig.PRESETS["booted-block-low-mass"]
 DRAWN = {
@@ -102,13 +103,13 @@ def counted(everything, monkeypatch):
 
     for name, (place, attribute) in DRAWN.items():
         monkeypatch.setattr(place, attribute, counting(name, getattr(place, attribute)))
-    whole = tig.insertion_gain
+    whole = solution_module.insertion_gain
 
     def integrated(spectrum, design, *arguments, **options):
         counts[design] += 1
         return whole(spectrum, design, *arguments, **options)
 
-    monkeypatch.setattr(tig, "insertion_gain", integrated)
+    monkeypatch.setattr(solution_module, "insertion_gain", integrated)
     everything.assessment.param.watch(lambda *_: counts.update(["assessed"]), ["results", "base", "preset"])
     return counts
 
