@@ -10,7 +10,7 @@ from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
-from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store, workers
+from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
 
@@ -18,15 +18,15 @@ log = logging.getLogger(__name__)
 
 
 def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
-    """Have kernels compiled, presets solved and HoloViews loaded while pages are served."""
+    """Have kernels compiled and the presets solved while pages are served, the opening one first."""
     IOLoop.current().asyncio_loop.set_exception_handler(handle_message)
+    compiled()
+    # here and not on a thread: an import that sessions run into half-way fails for them
+    overlays.load()
     # what is imported stays: looking through it for garbage would stop every session for 0.1 s now and then
     gc.freeze()
-    compiled()
     for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
         shared_store().request((tig.PRESETS[key], AT_REST))
-    # so that nobody's first look at a picture that is described with it waits for its import
-    workers().submit(overlays.load)
 
 
 def handle_message(loop, context):
