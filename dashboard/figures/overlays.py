@@ -13,6 +13,7 @@ from dashboard.figures.axes import dress
 LOOK = {
     "responsive": True,
     "show_grid": True,
+    "show_title": False,
     "active_tools": [],
     "legend_opts": {"click_policy": "none"},
 }

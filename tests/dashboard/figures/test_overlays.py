@@ -54,6 +54,10 @@ def test_a_rendered_figure_is_laid_out_like_one_drawn_with_bokeh(rendered, drawn
     assert [type(tool) for tool in drawn.tools] == [type(tool) for tool in rendered.tools[:-1]]
 
 
+def test_no_column_of_the_source_is_shown_as_a_title(rendered):
+    assert rendered.title is None or not rendered.title.text
+
+
 def test_every_band_is_on_the_axis_and_zero_is_a_line(rendered):
     assert (rendered.x_range.start, rendered.x_range.end) == BAND_AXIS
     assert list(rendered.xaxis[0].ticker.ticks) == list(tig.BAND_CENTRES)
