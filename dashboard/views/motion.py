@@ -10,6 +10,7 @@ import panel_material_ui as pmui
 from bokeh.models import CustomJSTickFormatter
 
 import trackig_core as tig
+from dashboard.compute.document import NextTick
 from dashboard.figures.axes import BAND_AXIS
 from dashboard.figures.learn import PickFigure
 from dashboard.figures.motion import FilmPlayer, ShapePlayer
@@ -77,7 +78,8 @@ class Motion(Subject):
             margin=(0, 14),
         )
         self.pick.cursor.on_change("location", self._picked)
-        self.frequency.param.watch(self._slid, "value")
+        # the cursor is a model of Bokeh, which may change only when the document may
+        self.frequency.param.watch(NextTick(self._follow_slider), "value")
         outcome.param.watch(self._show_shape, "summary")
         definition.param.watch(self._show_shape, ["reference", "summation"])
         self.question.param.watch(self._show_shape, "looked_at")
@@ -92,18 +94,19 @@ class Motion(Subject):
         self.film.show(answer)
 
     def _jump(self, which):
-        def jump(_):
+        def jump():
             summary = self.outcome.summary
             frequency = None if summary is None else which(summary.solution.natural_frequencies)
             if frequency is not None:
                 self.pick.cursor.location = min(max(frequency, BAND_AXIS[0]), BAND_AXIS[1])
 
-        return jump
+        return NextTick(jump)
 
-    def _slid(self, event):
+    def _follow_slider(self):
         # a slider that follows the cursor must not round where it stands
-        if event.new != round(_position(self.pick.cursor.location)):
-            self.pick.cursor.location = BAND_AXIS[0] * 10 ** (event.new / STEPS_PER_DECADE)
+        position = self.frequency.value
+        if position != round(_position(self.pick.cursor.location)):
+            self.pick.cursor.location = BAND_AXIS[0] * 10 ** (position / STEPS_PER_DECADE)
 
     def _picked(self, _attribute, _old, frequency):
         self.frequency.value = round(_position(frequency))
