@@ -19,7 +19,7 @@ log = logging.getLogger(__name__)
 
 def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     """Have kernels compiled and the presets solved while pages are served, the opening one first."""
-    IOLoop.current().asyncio_loop.set_exception_handler(handle_message)
+    IOLoop.current().asyncio_loop.set_exception_handler(handle_exception)
     compiled()
     # here and not on a thread: an import that sessions run into half-way fails for them
     overlays.load()
@@ -29,7 +29,7 @@ def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
         shared_store().request((tig.PRESETS[key], AT_REST))
 
 
-def handle_message(loop, context):
+def handle_exception(loop, context):
     """Log an exception that nobody caught; a reader who left while a picture was on its way is none.
 
     Parameters

@@ -9,13 +9,13 @@ from bokeh.models import ColumnDataSource, CustomJSHover, GlyphRenderer, HoverTo
 from dashboard import theme
 from dashboard.figures.axes import LEVEL_STEP, AxisEnds, show_bands
 from dashboard.figures.insertion_gain import ALONE_TOOLTIPS, NO_LEVELS, PIN_HOVER, pin_columns
-from dashboard.figures.legends import MOST_CURVES, PinnedLines, dress_legend, legend_entry, update_legend
+from dashboard.figures.legends import PinnedLines, dress_legend, legend_entry, update_legend
 from dashboard.figures.overlays import band_overlay, rendered
 
 LEAST_REACH = 4.0
 """What the axis of differences shows at least on either side [dB]."""
 
-CURRENT = f"pin_{MOST_CURVES}"
+CURRENT = f"pin_{theme.MOST_PINNED}"
 """Column of the current design among the differences, behind those of the pins."""
 
 LOOKS = {CURRENT: {"line_color": theme.THIS_DESIGN, "line_width": theme.LINE_WIDTH}}
@@ -50,8 +50,8 @@ class BaseDifferenceFigure:
         (self._current,) = self.model.select({"type": GlyphRenderer})
         self._current.data_source = self.differences
         self._entry = legend_entry(self.model, "this design", self._current)
-        names = [f"pin_{place}" for place in range(MOST_CURVES)]
-        sources = [self.differences] * MOST_CURVES
+        names = [f"pin_{place}" for place in range(theme.MOST_PINNED)]
+        sources = [self.differences] * theme.MOST_PINNED
         self._pinned = PinnedLines(self.model, self._current, sources, "centre", names)
         differences = CustomJSHover(args={"pins": self.differences}, code=PIN_HOVER)
         self._hover = HoverTool(
@@ -81,7 +81,7 @@ class BaseDifferenceFigure:
         self._current.visible = current is not None
         own = [] if current is None else [self._entry]
         update_legend(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
-        tooltips = [] if current is None else [("this design", f"@centre{{{MOST_CURVES}}}")]
+        tooltips = [] if current is None else [("this design", f"@centre{{{theme.MOST_PINNED}}}")]
         tooltips += [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)]
         self._hover.update(
             renderers=self._pinned.lines[:1] if current is None else [self._current],

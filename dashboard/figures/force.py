@@ -20,7 +20,6 @@ from tsdownsample import MinMaxDownsampler
 from dashboard import theme
 from dashboard.figures.axes import AxisEnds, blank_figure
 from dashboard.figures.legends import (
-    MOST_CURVES,
     PinnedLines,
     are_the_same,
     legend_entry,
@@ -115,7 +114,7 @@ class ForceFigure:
     def __init__(self):
         self.pins = [
             ColumnDataSource(name=f"pinned_force_{place}", data={"time": [], "total": []})
-            for place in range(MOST_CURVES)
+            for place in range(theme.MOST_PINNED)
         ]
         self.samples = ColumnDataSource(name="force", data={"time": [], "loaded_support": [], "total": []})
         self._forces = AxisEnds((-1.0, 1.0))
@@ -149,7 +148,7 @@ class ForceFigure:
                 "loaded_support", "support under the wheel", theme.LOADED_TRACK, theme.SECOND_DASH
             ),
         ]
-        self._pinned = PinnedLines(plot, plot.renderers[0], self.pins, "time", ["total"] * MOST_CURVES)
+        self._pinned = PinnedLines(plot, plot.renderers[0], self.pins, "time", ["total"] * theme.MOST_PINNED)
         update_legend(self._legend, self._entries, self._entries)
 
     def _draw_force(self, column, words, colour, dash):

@@ -31,7 +31,6 @@ from dashboard.figures.axes import (
     zero_line,
 )
 from dashboard.figures.legends import (
-    MOST_CURVES,
     NO_LABEL,
     PinnedLines,
     are_the_same,
@@ -152,8 +151,8 @@ class InsertionGainFigure:
             line_dash="dashed",
             **shared,
         )
-        names = [f"pin_{place}" for place in range(MOST_CURVES)]
-        self._pinned = PinnedLines(plot, self._ghost, [self.pins] * MOST_CURVES, "centre", names)
+        names = [f"pin_{place}" for place in range(theme.MOST_PINNED)]
+        self._pinned = PinnedLines(plot, self._ghost, [self.pins] * theme.MOST_PINNED, "centre", names)
         self._line = plot.line(y="level", line_color=theme.THIS_DESIGN, line_width=theme.LINE_WIDTH, **shared)
         self._dots = plot.scatter(y="level", color=theme.THIS_DESIGN, size=theme.DOT_SIZE, **shared)
         pinned = CustomJSHover(args={"pins": self.pins}, code=PIN_HOVER)
@@ -309,7 +308,7 @@ def _band_columns(levels, preset):
 
 def pin_columns(levels):
     """Return the columns of a source that holds levels (21,) [dB] of each pin, NaN for those missing."""
-    missing = MOST_CURVES - len(levels)
+    missing = theme.MOST_PINNED - len(levels)
     columns = {f"pin_{place}": each for place, each in enumerate([*levels, *[NO_LEVELS] * missing])}
     return {"label": list(tig.BAND_LABELS), "centre": tig.BAND_CENTRES, **columns}
 

@@ -91,10 +91,6 @@ class PinnedLines:
         return [entry for entry, line in zip(self.entries, self.lines, strict=True) if line.visible]
 
 
-MOST_CURVES = theme.MOST_PINNED
-"""Pinned designs that a figure can draw."""
-
-
 def are_the_same(some, others):
     """Return whether two sequences hold the same objects in the same order: then nothing is to be sent."""
     return len(some) == len(others) and all(map(operator.is_, some, others))

@@ -148,7 +148,7 @@ class FakeStore:
 
 def test_a_reader_who_leaves_is_no_error_and_all_else_is_logged(caplog):
     async def fail(error):
-        asyncio.get_running_loop().set_exception_handler(app_hooks.handle_message)
+        asyncio.get_running_loop().set_exception_handler(app_hooks.handle_exception)
         asyncio.get_running_loop().call_exception_handler({"message": "a task failed", "exception": error})
 
     asyncio.run(fail(WebSocketClosedError()))
