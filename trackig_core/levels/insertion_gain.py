@@ -7,7 +7,7 @@ and the energy sum; IEC 61260-1 for the bands.
 from collections.abc import Collection
 
 import numpy as np
-from scipy.interpolate import CubicSpline, make_interp_spline
+from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
@@ -19,10 +19,6 @@ REFERENCES = ("line", "rigid")
 
 SUMMATIONS = ("energy", "coherent")
 """Sums over the supports: of squared forces (the paper), or of forces."""
-
-ANCHOR_POINTS = 8
-"""Points of the spectrum on either side of the reference line's anchor that are joined by a spline [-]; it
-forgets what lies further away by a factor of four per point."""
 
 
 def insertion_gain(
@@ -63,17 +59,15 @@ def insertion_gain(
     check_choice("summation", summation, SUMMATIONS)
     energy = summed_energy(spectrum, summation)
     frequency = spectrum.frequency
+    density = CubicSpline(frequency, energy)
     if reference == "line":
-        # E grows as f^2 here: E / f^2 is nearly flat, so it may be interpolated between bins
+        # E grows as f^2 here, which a cubic spline follows between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        near = np.searchsorted(frequency, anchor)
-        around = slice(max(0, near - ANCHOR_POINTS), near + ANCHOR_POINTS)
-        curve = make_interp_spline(frequency[around], energy[around] / frequency[around] ** 2)
-        height = float(curve(anchor))
+        height = float(density(anchor)) / anchor**2
     else:
         # E = (m_w w^2 step)^2 / w^2
         height = (2 * np.pi * design.wheel_mass * spectrum.step) ** 2
-    band_energy = integrate_bands(frequency, energy)
+    band_energy = _over_bands(density)
     reference_energy = height * np.diff(BAND_EDGES**3) / 3
     return InsertionGain(
         levels=decibels(band_energy / reference_energy),
@@ -113,11 +107,15 @@ def integrate_bands(frequency: RealArray, density: RealArray) -> RealArray:
     numpy.ndarray (21,)
         Integral over each band [unit].
     """
-    spline = CubicSpline(frequency, density)
-    inner = (frequency > BAND_EDGES[0]) & (frequency < BAND_EDGES[-1])
-    nodes = np.union1d(frequency[inner], BAND_EDGES)
+    return _over_bands(CubicSpline(frequency, density))
+
+
+def _over_bands(spline: CubicSpline) -> RealArray:
+    inner = (spline.x > BAND_EDGES[0]) & (spline.x < BAND_EDGES[-1])
+    nodes = np.sort(np.concatenate([spline.x[inner], BAND_EDGES]))
     at_nodes, between = spline(nodes), spline((nodes[:-1] + nodes[1:]) / 2)
     # Simpson's rule is exact for cubics. Panels are summed band by band: the difference of one running sum
     # would lose bands that lie 160 dB below others.
     panels = np.diff(nodes) * (at_nodes[:-1] + 4 * between + at_nodes[1:]) / 6
-    return np.add.reduceat(panels, np.searchsorted(nodes, BAND_EDGES[:-1]))
+    energy: RealArray = np.add.reduceat(panels, np.searchsorted(nodes, BAND_EDGES[:-1]))
+    return energy

@@ -7,11 +7,14 @@ Source: the paper (see :mod:`trackig_core.track.design`): energy is summed over 
 Nothing is said above the low-pass filter's pass band.
 """
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.fft import next_fast_len, rfft
 
 from trackig_core.arrays import RealArray
 from trackig_core.results import ForceSpectrum, TimeHistory
+from trackig_core.time_domain.decimation import LowPass
 
 TOP_FREQUENCY = 600.0
 """Highest frequency of a spectrum [Hz]: above the upper edge of the 500 Hz band, 562 Hz."""
@@ -37,8 +40,8 @@ def force_spectrum(history: TimeHistory, padding: float = 1) -> ForceSpectrum:
         At multiples of one over the transform's length, up to 600 Hz.
     """
     length = transform_length(history, padding)
-    frequency, interval = _axis(history, length)
-    correction = (interval / history.low_pass.gain(frequency)) ** 2
+    frequency = _axis(history.low_pass, length)
+    correction = _correction(history.low_pass, length)
 
     # Plain sums: a product of matrices would be shared among threads, which wait for each other when other
     # solves keep the cores busy.
@@ -80,13 +83,22 @@ def block_to_rail(history: TimeHistory) -> tuple[RealArray, RealArray]:
     ratio : numpy.ndarray (frequencies,)
         Magnitude of block over rail displacement [-]; the low-pass filter's response cancels.
     """
-    frequency, _ = _axis(history, len(history.time))
+    frequency = _axis(history.low_pass, len(history.time))
     some = slice(1, len(frequency) + 1)
     return frequency, np.abs(rfft(history.block_displacement)[some] / rfft(history.rail_displacement)[some])
 
 
-def _axis(history: TimeHistory, length: int) -> tuple[RealArray, float]:
-    """Return the frequencies of a transform up to 600 Hz, zero left out, and its interval [s]."""
-    interval = (history.time[-1] - history.time[0]) / (len(history.time) - 1)
-    count = int(TOP_FREQUENCY * length * interval) + 1
-    return np.arange(1, count) / (length * interval), interval
+def _axis(low_pass: LowPass, length: int) -> RealArray:
+    """Return the frequencies of a transform up to 600 Hz, zero left out [Hz]."""
+    interval = low_pass.steps_per_sample * low_pass.time_step
+    return np.arange(1, int(TOP_FREQUENCY * length * interval) + 1) / (length * interval)
+
+
+@lru_cache(maxsize=64)
+def _correction(low_pass: LowPass, length: int) -> RealArray:
+    """Return what makes a squared transform an energy (frequencies,) [s2], the filter's response divided out.
+
+    The same few filters and lengths come back with every run.
+    """
+    interval = low_pass.steps_per_sample * low_pass.time_step
+    return (interval / low_pass.gain(_axis(low_pass, length))) ** 2
