@@ -55,6 +55,19 @@ DESIGN_FIELDS = (
 RANGES = {each.name: (each.low, each.high, each.unit) for each in (*RAIL_FIELDS, *DESIGN_FIELDS)}
 """Lowest and highest value, and unit, of each number by name."""
 
+SLIDER_RANGES = {
+    "pad_stiffness": (10e6, 2000e6),
+    "pad_loss_factor": (0.01, 0.5),
+    "block_mass": (10.0, 500.0),
+    "boot_stiffness": (2e6, 200e6),
+    "boot_loss_factor": (0.01, 0.5),
+    "fastener_spacing": (0.2, 1.0),
+    "wheel_mass": (200.0, 1500.0),
+    "contact_stiffness": (200e6, 5000e6),
+}
+"""Lowest and highest value of each number that a designer chooses from [SI]: what sliders offer, and what is
+searched unless other ranges are given."""
+
 
 class DesignError(ValueError):
     """A design has a value that no track can have.
