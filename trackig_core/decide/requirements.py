@@ -99,6 +99,10 @@ class Requirements:
         """Return the least margin over the bands that have a limit (...) [dB]."""
         return self.margins(many).min(axis=-1)
 
+    def complies(self, many: BatchSolution) -> BoolArray:
+        """Return which designs comply (...)."""
+        return self.governing_margin(many) >= 0
+
     def values(self, many: BatchSolution, figure: str) -> RealArray:
         """Return one figure of many designs.
 

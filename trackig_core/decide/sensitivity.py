@@ -74,7 +74,7 @@ class Sensitivity:
         return tuple(self.fields[place] for place in np.argsort(-largest, kind="stable"))
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """Return a pandas.DataFrame, one row a change: field, change [-], differences of figures and bands."""
+        """Return a pandas.DataFrame, one row a change: field, share [-], differences."""
         import pandas as pd
 
         columns: dict[str, Any] = {
@@ -139,11 +139,12 @@ def sensitivity(
     """
     required = Requirements(specification, source, reference, summation)
     changed_by = _changes(design, changes)
-    designs = [design]
-    for name, change in changed_by.items():
-        for factor in (1 - change, 1 + change):
-            designs.append(design.replace(**{name: _scaled(getattr(design, name), factor)}))
-    many = solve_many(designs)
+    changed = [
+        design.replace(**{name: _scaled(getattr(design, name), factor)})
+        for name, change in changed_by.items()
+        for factor in (1 - change, 1 + change)
+    ]
+    many = solve_many([design, *changed])
     figures = {name: required.values(many, name) for name in required.figures(design)}
     levels = required.levels(many)
     return Sensitivity(
@@ -230,9 +231,10 @@ class SobolIndices:
     def __str__(self) -> str:
         """Return one sentence."""
         first = int(self.total_order[0].argmax())
+        total, alone = (percent(float(order[0, first])) for order in (self.total_order, self.first_order))
         return (
-            f"Of the scatter of the {WORDS[self.figures[0]]}, {percent(self.total_order[0, first])} is due to "
-            f"the {plain(self.factors[first])}, {percent(self.first_order[0, first])} to it alone."
+            f"Of the scatter of the {WORDS[self.figures[0]]}, {total} is due to the "
+            f"{plain(self.factors[first])}, {alone} to it alone."
         )
 
 

@@ -1,12 +1,13 @@
 """How sure a design is to comply when its fields scatter as production makes them.
 
-SI units, dB. The share of complying samples estimates the probability of compliance; its confidence interval is
-Wilson's for independent samples, which quasi-random ones beat, so it is on the safe side. Source: Wilson
+SI units, dB. The share of complying samples estimates the probability of compliance; its confidence interval
+is Wilson's for independent samples, which quasi-random ones beat, so it is on the safe side. Source: Wilson
 (1927), "Probable inference, the law of succession, and statistical inference".
 """
 
 from __future__ import annotations
 
+from collections import ChainMap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
@@ -98,7 +99,7 @@ class ToleranceResult:
         return None if self.complying == self.samples else next(iter(self.tightened))
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """Return a pandas.DataFrame, one row a sample: fields [SI], frequencies [Hz], bands and margin [dB]."""
+        """Return a pandas.DataFrame, one row a sample: fields [SI], figures, governing margin [dB]."""
         return self.many.to_dataframe().assign(margin=self.margins)
 
     def __repr__(self) -> str:
@@ -221,11 +222,9 @@ def _tightened(
 def _worst_corner(
     design: TrackDesign, required: Requirements, factors: Sequence[Factor]
 ) -> tuple[TrackDesign, float]:
-    """Return the design with the least governing margin, every factor at one of its extremes; and that [dB]."""
-    corners: list[dict[str, Any]] = []
-    for parts in product(*(factor.corners() for factor in factors)):
-        corners.append({name: value for part in parts for name, value in part.items()})
-    many = solve_many([design.replace(**corner) for corner in corners])
+    """Return the corner of the tolerances with the least governing margin, and that [dB]."""
+    corners = product(*(factor.corners() for factor in factors))
+    many = solve_many([design.replace(**dict(ChainMap(*corner))) for corner in corners])
     margins = required.governing_margin(many)
     worst = int(margins.argmin())
     return many.design(worst), float(margins[worst])
