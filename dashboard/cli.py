@@ -292,7 +292,8 @@ def _check(options):
         solution = tig.solve(
             pinned.design, options.fidelity, reference=view.reference, summation=view.summation
         )
-        verdict = opened.specification.check(solution.insertion_gain)
+        deflection = tig.analysis.limited_deflection(opened.specification, pinned.design)
+        verdict = opened.specification.check(solution.insertion_gain, deflection)
         sys.stdout.write(f"{pinned.name}: {verdict}\n")
         complies &= verdict.complies
     return 0 if complies else FAILED

@@ -16,7 +16,7 @@ gain of track support systems using the finite difference method". SI units thro
 from importlib.metadata import version
 
 from trackig_core import analysis, levels, results, study
-from trackig_core.analysis import receptance, verify
+from trackig_core.analysis import receptance, static_response, verify
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.levels import SourceSpectrum, Specification, insertion_gain
@@ -63,6 +63,7 @@ __all__ = [
     "receptance",
     "solve",
     "solve_many",
+    "static_response",
     "study",
     "verify",
 ]
