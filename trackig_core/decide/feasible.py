@@ -1,10 +1,10 @@
 """How far each number of a design may be moved, all others held, before the design stops complying.
 
 SI units; margins in dB. Every field is scanned over its range on a logarithmic axis, all fields in one call
-of :func:`trackig_core.solve_many`. The margin of each band is smooth in each field, though their least is not:
-splines through the scan, band by band, show where compliance begins or ends within an interval, even if both
-of its ends comply or both fail. Such intervals are scanned again, twice, all together; within the last ones,
-less than 0.1 % wide, the edge is interpolated.
+of :func:`trackig_core.solve_many`. The margin of each band is smooth in each field, though their least is
+not: splines through the scan, band by band, show where compliance begins or ends within an interval, even if
+both of its ends comply or both fail. Such intervals are scanned again, twice, all together; within the last
+ones, less than 0.1 % wide, the edge is interpolated.
 """
 
 from __future__ import annotations
@@ -71,20 +71,27 @@ class FeasibleRanges(Mapping[str, Intervals]):
         Every stretch of compliance within the range of the field, ascending [unit of the field].
     ranges : dict of str to (float, float)
         Ranges that were searched [unit of the field].
+    complies : bool
+        Whether the design itself complies.
     margin : float [dB]
-        Governing margin of the design itself; negative if it fails.
+        Governing margin of the design itself; negative where insertion gain fails.
     governed_by : str
         Band, by its nominal mid-band frequency, with that margin.
-    rails : dict of str to float [dB]
-        Governing margin with each rail of the catalogue.
+    deflection, deflection_limit : float [m], float or None [m]
+        Static rail deflection of the design itself, and the greatest allowed.
+    rails : dict of str to bool
+        Whether the design complies with each rail of the catalogue.
     """
 
     design: TrackDesign
     intervals: dict[str, Intervals]
     ranges: dict[str, tuple[float, float]]
+    complies: bool
     margin: float
     governed_by: str
-    rails: dict[str, float]
+    deflection: float
+    deflection_limit: float | None
+    rails: dict[str, bool]
 
     def __getitem__(self, field: str) -> Intervals:
         """Return the intervals of a field."""
@@ -97,11 +104,6 @@ class FeasibleRanges(Mapping[str, Intervals]):
     def __len__(self) -> int:
         """Return how many fields there are."""
         return len(self.intervals)
-
-    @property
-    def complies(self) -> bool:
-        """Whether the design itself complies."""
-        return self.margin >= 0
 
     def sentence(self, field: str) -> str:
         """Return where a field complies, in words, such as ``"boot stiffness at most 10.85 MN/m"``."""
@@ -141,17 +143,29 @@ class FeasibleRanges(Mapping[str, Intervals]):
     def __str__(self) -> str:
         """Return one sentence."""
         verdict = "complies" if self.complies else "fails"
-        by = f"by {abs(self.margin):.1f} dB at {self.governed_by} Hz"
+        said = f"The design {verdict}, {self._because}"
         changes = [field for field in self if self.intervals[field]]
         if not changes:
-            return f"The design {verdict} {by}, and no single field makes it comply."
-        return f"The design {verdict} {by}; it complies with {', or '.join(map(self.sentence, changes))}."
+            return f"{said}; no change of a single field makes it comply."
+        return f"{said}; it complies with {', or '.join(map(self.sentence, changes))}."
+
+    @property
+    def _because(self) -> str:
+        """Margin, and deflection if it is limited, in words."""
+        words = f"{abs(self.margin):.1f} dB {'within' if self.margin >= 0 else 'beyond'} the limit "
+        words += f"at {self.governed_by} Hz"
+        if self.deflection_limit is None:
+            return words
+        return (
+            f"{words}, its rail sinking {1e3 * self.deflection:.2f} of {1e3 * self.deflection_limit:.2f} mm"
+        )
 
 
 def feasible_ranges(
     design: TrackDesign,
     specification: Specification,
     *,
+    max_deflection: float | None = None,
     reference: str = "line",
     summation: str = "energy",
     fields: Sequence[str] | None = None,
@@ -166,6 +180,8 @@ def feasible_ranges(
         The design.
     specification : Specification
         Greatest insertion gain per band [dB].
+    max_deflection : float, optional
+        Greatest rail deflection, in place of the specification's own limit [m].
     reference, summation : str
         Definition of insertion gain, as for :func:`trackig_core.solve`.
     fields : sequence of str, optional
@@ -189,17 +205,17 @@ def feasible_ranges(
     ValueError
         If a field is not a single number of this design, or a choice is not one of the above.
     """
-    required = Requirements(specification, reference=reference, summation=summation)
+    required = Requirements(specification, None, reference, summation, max_deflection)
     searched = searched_ranges(design, fields, ranges)
     names = list(searched)
 
     def evaluate(numbers: IntArray, places: RealArray) -> RealArray:
-        return required.margins(solve_designs(design, _rows(design, searched, numbers, places), how))
+        return required.slacks(solve_designs(design, _rows(design, searched, numbers, places), how))
 
     rails = [design.rail, *RAILS.values()]
-    around = required.margins(solve_designs(design, {"rail": np.array(rails, dtype=object)}, how))
+    around = solve_designs(design, {"rail": np.array(rails, dtype=object)}, how)
     found = complying_stretches(evaluate, len(names)) if names else []
-    least = around.min(axis=1)
+    complies, margins = required.complies(around), required.margins(around)[0]
     return FeasibleRanges(
         design=design,
         intervals={
@@ -207,9 +223,12 @@ def feasible_ranges(
             for name, stretches in zip(names, found, strict=True)
         },
         ranges=searched,
-        margin=float(least[0]),
-        governed_by=required.names[int(around[0].argmin())],
-        rails={rail.name: float(margin) for rail, margin in zip(rails[1:], least[1:], strict=True)},
+        complies=bool(complies[0]),
+        margin=float(margins.min()),
+        governed_by=required.names[int(margins.argmin())],
+        deflection=float(required.deflection(around)[0]),
+        deflection_limit=required.deflection_limit,
+        rails={rail.name: bool(each) for rail, each in zip(rails[1:], complies[1:], strict=True)},
     )
 
 

@@ -102,6 +102,7 @@ def design_map(
     ranges: Ranges | None = None,
     points: tuple[int, int] = (POINTS, POINTS),
     source: SourceSpectrum | None = None,
+    max_deflection: float | None = None,
     reference: str = "line",
     summation: str = "energy",
     **how: Unpack[How],
@@ -124,6 +125,8 @@ def design_map(
         Points along x and y [-].
     source : SourceSpectrum, optional
         Levels on the reference track [dB], for the A-weighted level.
+    max_deflection : float, optional
+        Greatest rail deflection, in place of the specification's own limit [m].
     reference, summation : str
         Definition of insertion gain, as for :func:`trackig_core.solve`.
     **how
@@ -143,7 +146,7 @@ def design_map(
     ValueError
         If a field or figure is none of this design, or there are too few or too many points.
     """
-    required = Requirements(specification, source, reference, summation)
+    required = Requirements(specification, source, reference, summation, max_deflection)
     names = required.figures(design) if figures is None else tuple(figures)
     required.check_figures(names, design)
     if x_field == y_field:

@@ -8,7 +8,7 @@ zero and its rail sinks no further than allowed.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,20 +17,25 @@ from trackig_core.bands import BAND_LABELS, decibels
 from trackig_core.frequency_domain.batch import BatchSolution
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice
 from trackig_core.levels.source import A_WEIGHTING, SourceSpectrum
-from trackig_core.levels.specification import LEVEL_TOLERANCE, Specification
+from trackig_core.levels.specification import DEFLECTION_TOLERANCE, LEVEL_TOLERANCE, Specification
 from trackig_core.track.design import TrackDesign
 
-MARGIN, LEVEL = "margin", "level"
+MARGIN, LEVEL, DEFLECTION = "margin", "level", "deflection"
 FREQUENCIES = ("loaded_track", "coupled_block")
 
-UNITS = {MARGIN: "dB", LEVEL: "dB(A)", "loaded_track": "Hz", "coupled_block": "Hz"} | dict.fromkeys(
-    BAND_LABELS, "dB"
-)
+UNITS = {
+    MARGIN: "dB",
+    LEVEL: "dB(A)",
+    DEFLECTION: "m",
+    "loaded_track": "Hz",
+    "coupled_block": "Hz",
+} | dict.fromkeys(BAND_LABELS, "dB")
 """Unit of each figure by name; the name of a band is its nominal mid-band frequency, such as ``"63"``."""
 
 WORDS = {
     MARGIN: "governing margin",
     LEVEL: "A-weighted level",
+    DEFLECTION: "rail deflection",
     "loaded_track": "loaded-track frequency",
     "coupled_block": "coupled-block frequency",
 } | {label: f"insertion gain at {label} Hz" for label in BAND_LABELS}
@@ -49,19 +54,24 @@ class Requirements:
         Levels on the reference track [dB], for A-weighted levels.
     reference, summation : str
         Definition of insertion gain, as for :func:`trackig_core.solve`.
+    max_deflection : float or None
+        Greatest rail deflection under the specification's wheel load, in place of its own limit [m].
 
     Raises
     ------
+    SpecificationError
+        If the greatest deflection is no number within its range.
     TypeError
         If the specification or the source is of another kind.
     ValueError
-        If a choice is not allowed.
+        If a choice is not allowed, or a deflection is limited without a specification.
     """
 
     specification: Specification | None = None
     source: SourceSpectrum | None = None
     reference: str = "line"
     summation: str = "energy"
+    max_deflection: float | None = None
 
     def __post_init__(self) -> None:
         """Check every value once."""
@@ -71,6 +81,11 @@ class Requirements:
                 raise TypeError(f"{name} = {value!r}: give a {kind.__name__}")
         check_choice("reference", self.reference, REFERENCES)
         check_choice("summation", self.summation, SUMMATIONS)
+        if self.max_deflection is not None:
+            if self.specification is None:
+                raise ValueError(f"max_deflection = {self.max_deflection!r}: {_MISSING[MARGIN]}")
+            limited = replace(self.specification, rail_deflection_limit=self.max_deflection)
+            object.__setattr__(self, "specification", limited)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -99,9 +114,30 @@ class Requirements:
         """Return the least margin over the bands that have a limit (...) [dB]."""
         return self.margins(many).min(axis=-1)
 
+    @property
+    def deflection_limit(self) -> float | None:
+        """Greatest rail deflection allowed [m], or None."""
+        return None if self.specification is None else self.specification.rail_deflection_limit
+
+    def deflection(self, many: BatchSolution) -> RealArray:
+        """Return the static rail deflection under the specification's wheel load (...) [m]."""
+        load = many.wheel_load if self.specification is None else self.specification.wheel_load
+        return many.rail_deflection * (load / many.wheel_load)
+
+    def slacks(self, many: BatchSolution) -> RealArray:
+        """Return how far designs keep each limit (..., limits) [dB]: the margins, and of a deflection 20 lg.
+
+        A design complies where none is below zero; each is smooth in every field.
+        """
+        margins, limit = self.margins(many), self.deflection_limit
+        if limit is None:
+            return margins
+        slack = 2 * decibels((limit + DEFLECTION_TOLERANCE) / self.deflection(many))
+        return np.concatenate([margins, slack[..., None]], axis=-1)
+
     def complies(self, many: BatchSolution) -> BoolArray:
         """Return which designs comply (...)."""
-        return self.governing_margin(many) >= 0
+        return self.slacks(many).min(axis=-1) >= 0
 
     def values(self, many: BatchSolution, figure: str) -> RealArray:
         """Return one figure of many designs.
@@ -112,7 +148,8 @@ class Requirements:
             The designs, solved.
         figure : str
             A key of :data:`UNITS`: ``"margin"`` (governing margin) [dB], ``"level"`` [dB(A)],
-            ``"loaded_track"`` or ``"coupled_block"`` [Hz], or a band such as ``"63"``: insertion gain [dB].
+            ``"deflection"`` (of the rail, static) [m], ``"loaded_track"`` or ``"coupled_block"`` [Hz], or a
+            band such as ``"63"``: insertion gain [dB].
 
         Returns
         -------
@@ -128,6 +165,8 @@ class Requirements:
             return self.governing_margin(many)
         if figure == LEVEL:
             return self._a_weighted(many)
+        if figure == DEFLECTION:
+            return self.deflection(many)
         if figure in FREQUENCIES:
             return getattr(many, figure)
         return self.levels(many)[..., BAND_LABELS.index(figure)]
@@ -140,7 +179,7 @@ class Requirements:
 
     def figures(self, design: TrackDesign) -> tuple[str, ...]:
         """Return the names of the figures that can be computed, bands apart, the governing margin first."""
-        known = {MARGIN: self.specification is not None, LEVEL: self.source is not None}
+        known = {MARGIN: self.specification is not None, LEVEL: self.source is not None, DEFLECTION: True}
         known |= {"loaded_track": True, "coupled_block": design.two_stage}
         return tuple(name for name, there in known.items() if there)
 

@@ -13,13 +13,19 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
-from scipy.stats import sobol_indices, uniform
+from scipy.stats import sobol_indices
 
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_LABELS
 from trackig_core.decide.requirements import MARGIN, UNITS, WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.tolerances import CONFIDENCE, Tolerance, columns_of, make_factors
+from trackig_core.decide.tolerances import (
+    CONFIDENCE,
+    Tolerance,
+    columns_of,
+    drawn_shares,
+    make_factors,
+)
 from trackig_core.decide.words import percent, plain
 from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.levels.source import SourceSpectrum
@@ -34,6 +40,9 @@ if TYPE_CHECKING:
 
 CHANGE = 0.1
 """Change of a field unless another is asked for [-]."""
+
+RESAMPLES = 200
+"""Resamples of a bootstrap [-]."""
 
 BASE_SAMPLES = 1024
 """Base samples of Sobol indices [-], a power of two; each costs two designs and one more per factor."""
@@ -107,6 +116,7 @@ def sensitivity(
     *,
     changes: float | Mapping[str, float] = CHANGE,
     source: SourceSpectrum | None = None,
+    max_deflection: float | None = None,
     reference: str = "line",
     summation: str = "energy",
 ) -> Sensitivity:
@@ -122,6 +132,8 @@ def sensitivity(
         Change of every field, or of some by name, up and down [-]; a measured curve changes as a whole.
     source : SourceSpectrum, optional
         Levels on the reference track [dB], for the A-weighted level.
+    max_deflection : float, optional
+        Greatest rail deflection, in place of the specification's own limit [m].
     reference, summation : str
         Definition of insertion gain, as for :func:`trackig_core.solve`.
 
@@ -137,7 +149,7 @@ def sensitivity(
     ValueError
         If a field cannot be changed, or a change is not above 0 and below 1.
     """
-    required = Requirements(specification, source, reference, summation)
+    required = Requirements(specification, source, reference, summation, max_deflection)
     changed_by = _changes(design, changes)
     changed = [
         design.replace(**{name: _scaled(getattr(design, name), factor)})
@@ -248,6 +260,7 @@ def sobol(
     samples: int = BASE_SAMPLES,
     seed: int = 0,
     source: SourceSpectrum | None = None,
+    max_deflection: float | None = None,
     reference: str = "line",
     summation: str = "energy",
     **how: Unpack[How],
@@ -269,7 +282,7 @@ def sobol(
         Base samples [-], a power of two; ``samples * (factors + 2)`` designs are solved.
     seed : int
         Seed of the quasi-random sequence and of the bootstrap.
-    source, reference, summation
+    source, max_deflection, reference, summation
         As for :func:`sensitivity`.
     **how
         Where the designs are solved, and who is told; see :class:`How`.
@@ -288,7 +301,7 @@ def sobol(
     ValueError
         If nothing varies, or a number or choice is not one of the above.
     """
-    required = Requirements(specification, source, reference, summation)
+    required = Requirements(specification, source, reference, summation, max_deflection)
     factors = make_factors(design, tolerances, production)
     required.check_figures(figures, design)
 
@@ -331,22 +344,29 @@ def indices_of(
     """
     if samples < 2 or samples & (samples - 1):
         raise ValueError(f"samples = {samples}: give a power of two, such as {BASE_SAMPLES}")
+    shares = drawn_shares(2 * len(factors), samples, seed).T
+    one, other = shares[: len(factors)], shares[len(factors) :]
+    # one of the factors from the other sample, all else from the one
+    mixed = np.repeat(one[:, None], len(factors), axis=1)
+    for number in range(len(factors)):
+        mixed[number, number] = other[number]
+    drawn = np.concatenate([one[:, None], other[:, None], mixed], axis=1)
+    values = evaluate(drawn.reshape(len(factors), -1)).reshape(len(figures), -1, samples)
+    found = _indices(values)
     random = np.random.default_rng(seed)
-    found = sobol_indices(func=evaluate, n=samples, dists=[uniform()] * len(factors), rng=random)
-    spread = found.bootstrap(confidence_level=CONFIDENCE, n_resamples=100)
+    resampled = [_indices(values[:, :, random.integers(samples, size=samples)]) for _ in range(RESAMPLES)]
+    ends = 100 * np.array([(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
+    first, total = np.moveaxis(np.percentile(resampled, ends, axis=0), 0, -1)
+    return SobolIndices(factors, figures, *found, first, total, samples, seed)
 
-    def interval(order: Any) -> RealArray:
-        ends = order.confidence_interval
-        return np.stack([ends.low, ends.high], axis=-1).reshape(len(figures), len(factors), 2)
 
-    shape = (len(figures), len(factors))
-    return SobolIndices(
-        factors=factors,
-        figures=figures,
-        first_order=found.first_order.reshape(shape),
-        total_order=found.total_order.reshape(shape),
-        first_order_interval=interval(spread.first_order),
-        total_order_interval=interval(spread.total_order),
-        samples=samples,
-        seed=seed,
-    )
+def _indices(values: RealArray) -> RealArray:
+    """Return first-order and total indices (2, figures, factors) of both samples and the mixed ones."""
+    evaluated = {
+        "f_A": values[:, 0],
+        "f_B": values[:, 1],
+        "f_AB": np.moveaxis(values[:, 2:], 1, 0),
+    }
+    with np.errstate(invalid="ignore"):  # what does not vary has no parts of a variance: NaN
+        found = sobol_indices(func=evaluated, n=values.shape[-1])
+    return np.array([found.first_order, found.total_order]).reshape(2, values.shape[0], -1)

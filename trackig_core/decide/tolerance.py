@@ -63,7 +63,7 @@ class ToleranceResult:
     margin_percentiles : numpy.ndarray (3,) [dB]
         The same of the governing margin.
     worst_corner : TrackDesign
-        The design with every field at one end of its tolerance whose governing margin is the least.
+        The design with every field at one end of its tolerance that keeps the limits least.
     worst_margin : float [dB]
         Its governing margin.
     tightened : dict of str to float
@@ -129,6 +129,7 @@ def tolerance(
     production: Mapping[str, Sequence[Any]] | None = None,
     samples: int = 10_000,
     seed: int = 0,
+    max_deflection: float | None = None,
     reference: str = "line",
     summation: str = "energy",
     **how: Unpack[How],
@@ -149,6 +150,8 @@ def tolerance(
         Samples that are drawn [-], 100 or more.
     seed : int
         Seed of the quasi-random sequence: the same seed gives the same figures.
+    max_deflection : float, optional
+        Greatest rail deflection, in place of the specification's own limit [m].
     reference, summation : str
         Definition of insertion gain, as for :func:`trackig_core.solve`.
     **how
@@ -168,7 +171,7 @@ def tolerance(
     ValueError
         If nothing varies, or a number or choice is not one of the above.
     """
-    required = Requirements(specification, reference=reference, summation=summation)
+    required = Requirements(specification, None, reference, summation, max_deflection)
     factors = make_factors(design, tolerances, production)
     if samples < 100:
         raise ValueError(f"samples = {samples}: give 100 or more")
@@ -177,7 +180,7 @@ def tolerance(
     work = samples + tried * len(factors)
     many = solve_designs(design, columns_of(factors, shares), part_of(how, 0.0, samples / work))
     margins = required.governing_margin(many)
-    complying = int((margins >= 0).sum())
+    complying = int(required.complies(many).sum())
     interval = binomtest(complying, samples).proportion_ci(CONFIDENCE, method="wilson")
     corner, worst = _worst_corner(design, required, factors)
     rest = part_of(how, samples / work, 1.0)
@@ -212,8 +215,9 @@ def _tightened(
         name: np.concatenate([halved[number].get(name, values) for number in numbers])
         for name, values in as_drawn.items()
     }
-    margins = required.governing_margin(solve_designs(design, columns, how)).reshape(len(numbers), -1)
-    probability = (margins >= 0).mean(axis=1)
+    many = solve_designs(design, columns, how)
+    margins = required.governing_margin(many).reshape(len(numbers), -1)
+    probability = required.complies(many).reshape(margins.shape).mean(axis=1)
     # of equal gains, the one that lifts the weak end of production
     order = np.lexsort((np.percentile(margins, PERCENTILES[0], axis=1), probability))[::-1]
     return {factors[numbers[place]].name: float(probability[place]) for place in order}
@@ -222,9 +226,8 @@ def _tightened(
 def _worst_corner(
     design: TrackDesign, required: Requirements, factors: Sequence[Factor]
 ) -> tuple[TrackDesign, float]:
-    """Return the corner of the tolerances with the least governing margin, and that [dB]."""
+    """Return the corner of the tolerances that keeps the limits least, and its governing margin [dB]."""
     corners = product(*(factor.corners() for factor in factors))
     many = solve_many([design.replace(**dict(ChainMap(*corner))) for corner in corners])
-    margins = required.governing_margin(many)
-    worst = int(margins.argmin())
-    return many.design(worst), float(margins[worst])
+    worst = int(required.slacks(many).min(axis=-1).argmin())
+    return many.design(worst), float(required.governing_margin(many)[worst])

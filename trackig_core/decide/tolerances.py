@@ -259,7 +259,7 @@ def _table_factor(design: TrackDesign, production: Mapping[str, Sequence[Any]], 
         )
     for row in range(sizes.pop()):
         try:
-            design.replace(**{name: values[row] for name, values in columns.items()})
+            design.replace(**{name: values.tolist()[row] for name, values in columns.items()})
         except DesignError as error:
             raise DesignError(error.field, error.value, error.allowed, row) from None
     return Factor("production", columns=columns)
