@@ -258,6 +258,11 @@ def searched_ranges(
     return {name: given.get(name, SLIDER_RANGES[name]) for name in wanted}
 
 
+def is_logarithmic(field: str) -> bool:
+    """Return whether a field spans decades, as stiffnesses do."""
+    return field.endswith("_stiffness")
+
+
 def at(ends: tuple[float, float], place: float) -> float:
     """Return the value at a place along a range, 0 to 1, on a logarithmic axis."""
     low, high = ends

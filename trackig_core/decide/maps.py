@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 
 from trackig_core.arrays import BoolArray, RealArray
-from trackig_core.decide.feasible import Ranges, searched_ranges
-from trackig_core.decide.requirements import UNITS, WORDS, Requirements
+from trackig_core.decide.feasible import Ranges, is_logarithmic, searched_ranges
+from trackig_core.decide.requirements import WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import amount, percent, plain
+from trackig_core.decide.words import amount, in_unit, percent, plain
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
@@ -86,7 +86,7 @@ class DesignMap:
             f"{plain(self.x_field)} {amount(self.x_field, self.x[column])} and "
             f"{plain(self.y_field)} {amount(self.y_field, self.y[row])}"
         )
-        most = f"the greatest {WORDS[name]} is {values[row, column]:.1f} {UNITS[name]}, with {place}"
+        most = f"the greatest {WORDS[name]} is {in_unit(name, values[row, column])}, with {place}"
         if self.complies is None:
             return f"{most[0].upper()}{most[1:]}."
         return f"{percent(float(self.complies.mean()))} of the map complies; {most}."
@@ -167,11 +167,6 @@ def design_map(
         figures={name: required.values(many, name).reshape(shape) for name in names},
         complies=None if specification is None else required.complies(many).reshape(shape),
     )
-
-
-def is_logarithmic(field: str) -> bool:
-    """Return whether a field spans decades, as stiffnesses do."""
-    return field.endswith("_stiffness")
 
 
 def _axis(field: str, ends: tuple[float, float], count: int) -> RealArray:

@@ -5,8 +5,11 @@ The results are the same to the last bit: every design is solved by itself, wher
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, TypedDict
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypedDict
+
+import numpy as np
 
 from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.track.design import TrackDesign
@@ -75,3 +78,19 @@ def part_of(how: How, begin: float, end: float) -> How:
     if progress is None:
         return how
     return {**how, "progress": lambda done: progress(begin + (end - begin) * done)}
+
+
+def joined(parts: Sequence[BatchSolution]) -> BatchSolution:
+    """Return solved designs, part after part along the first axis, as one."""
+    values: dict[str, Any] = {}
+    for field in dataclasses.fields(BatchSolution):
+        first = getattr(parts[0], field.name)
+        if isinstance(first, np.ndarray):
+            values[field.name] = np.concatenate([getattr(part, field.name) for part in parts])
+        elif isinstance(first, dict):
+            values[field.name] = {
+                name: np.concatenate([part.columns[name] for part in parts]) for name in first
+            }
+        else:
+            values[field.name] = first
+    return BatchSolution(**values)

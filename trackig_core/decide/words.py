@@ -1,5 +1,6 @@
 """Numbers of a design in words that can be read aloud: SI units, with prefixes where figures are long."""
 
+from trackig_core.decide.requirements import DEFLECTION, UNITS
 from trackig_core.track.fields import RANGES
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
@@ -42,3 +43,12 @@ def percent(share: float) -> str:
     if share in (0.0, 1.0) or 0.02 <= share <= 0.98:
         return f"{100 * share:.0f} %"
     return f"{100 * share:.1f} %"
+
+
+def in_unit(name: str, value: float) -> str:
+    """Return a figure, a field or a cost with its unit; a deflection in mm."""
+    if name == DEFLECTION:
+        return f"{1e3 * value:.2f} mm"
+    if name in UNITS:
+        return f"{value:.1f} {UNITS[name]}"
+    return amount(name, value) if name in RANGES else f"{value:.4g}"

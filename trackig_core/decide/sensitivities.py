@@ -357,7 +357,7 @@ def indices_of(
     resampled = [_indices(values[:, :, random.integers(samples, size=samples)]) for _ in range(RESAMPLES)]
     ends = 100 * np.array([(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
     first, total = np.moveaxis(np.percentile(resampled, ends, axis=0), 0, -1)
-    return SobolIndices(factors, figures, *found, first, total, samples, seed)
+    return SobolIndices(factors, figures, found[0], found[1], first, total, samples, seed)
 
 
 def _indices(values: RealArray) -> RealArray:

@@ -6,8 +6,8 @@ import pytest
 import trackig_core as tig
 from tests.core.decide.test_feasible import limits_around
 from tests.core.frequency_domain.test_batch import CURVE
-from trackig_core.decide.sensitivity import indices_of, sensitivity, sobol
-from trackig_core.decide.tolerance import tolerance
+from trackig_core.decide.production import tolerance
+from trackig_core.decide.sensitivities import indices_of, sensitivity, sobol
 from trackig_core.decide.tolerances import Normal, Uniform, drawn_shares, make_factors
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
