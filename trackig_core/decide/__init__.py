@@ -7,6 +7,7 @@ from trackig_core.decide.feasible import FeasibleRanges, feasible_ranges
 from trackig_core.decide.jobs import Grid, Job, Samples, run_job
 from trackig_core.decide.maps import DesignMap, design_map
 from trackig_core.decide.production import ToleranceResult, tolerance
+from trackig_core.decide.questions import Answer, Question
 from trackig_core.decide.requirements import Requirements
 from trackig_core.decide.search import FoundDesigns, find
 from trackig_core.decide.sensitivities import Sensitivity, SobolIndices, sensitivity, sobol
@@ -14,6 +15,7 @@ from trackig_core.decide.solving import How
 from trackig_core.decide.tolerances import Normal, Uniform
 
 __all__ = [
+    "Answer",
     "DesignMap",
     "FeasibleRanges",
     "FoundDesigns",
@@ -21,6 +23,7 @@ __all__ = [
     "How",
     "Job",
     "Normal",
+    "Question",
     "Requirements",
     "Samples",
     "Sensitivity",

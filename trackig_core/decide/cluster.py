@@ -159,7 +159,7 @@ def computed(
 
     numbered = enumerate(tasks)
     numbers = {}
-    waiting = as_completed()
+    waiting = as_completed(loop=client.loop)
 
     def hand_out() -> bool:
         for number, task in numbered:

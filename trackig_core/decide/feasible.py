@@ -189,7 +189,7 @@ def feasible_ranges(
     ranges : dict of str to (float, float), optional
         Ranges of some fields [unit of the field], in place of :data:`SLIDER_RANGES`.
     **how
-        Where the designs are solved, and who is told; see :class:`How`.
+        Where the designs are solved; see :class:`How`. It is over before progress could be told.
 
     Returns
     -------
@@ -208,6 +208,7 @@ def feasible_ranges(
     required = Requirements(specification, None, reference, summation, max_deflection)
     searched = searched_ranges(design, fields, ranges)
     names = list(searched)
+    how = {**how, "progress": None}  # of calls of some 10 ms
 
     def evaluate(numbers: IntArray, places: RealArray) -> RealArray:
         return required.slacks(solve_designs(design, _rows(design, searched, numbers, places), how))
