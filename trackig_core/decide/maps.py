@@ -15,7 +15,7 @@ from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.decide.feasible import Ranges, is_logarithmic, searched_ranges
 from trackig_core.decide.requirements import WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import amount, in_unit, percent, plain
+from trackig_core.decide.words import amount, in_unit, percent, plain, sentence
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
@@ -88,8 +88,8 @@ class DesignMap:
         )
         most = f"the greatest {WORDS[name]} is {in_unit(name, values[row, column])}, with {place}"
         if self.complies is None:
-            return f"{most[0].upper()}{most[1:]}."
-        return f"{percent(float(self.complies.mean()))} of the map complies; {most}."
+            return sentence(f"{most}.")
+        return sentence(f"{percent(float(self.complies.mean()))} of the map complies; {most}.")
 
 
 def design_map(

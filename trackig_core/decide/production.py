@@ -27,7 +27,7 @@ from trackig_core.decide.tolerances import (
     drawn_shares,
     make_factors,
 )
-from trackig_core.decide.words import percent, plain
+from trackig_core.decide.words import percent, plain, sentence
 from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
@@ -113,7 +113,7 @@ class ToleranceResult:
     def __str__(self) -> str:
         """Return one sentence."""
         low, high = (f"{100 * end:.1f}" for end in self.confidence_interval)
-        said = f"{percent(self.probability)} of production ({low}–{high} %) complies"
+        said = sentence(f"{percent(self.probability)} of production ({low}–{high} %) complies")
         if self.tighten_first is None:
             return f"{said}."
         which = self.tighten_first

@@ -10,18 +10,13 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, Unpack
 
 import numpy as np
 
-from trackig_core.decide.feasible import feasible_ranges
-from trackig_core.decide.maps import design_map
-from trackig_core.decide.production import tolerance
 from trackig_core.decide.requirements import Requirements
-from trackig_core.decide.search import find
-from trackig_core.decide.sensitivities import sensitivity, sobol
 from trackig_core.decide.solving import How
-from trackig_core.decide.tolerances import Normal, Tolerance, Uniform
 from trackig_core.decide.versions import versions
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
@@ -41,10 +36,24 @@ class Result(Protocol):
 
 
 @dataclass(frozen=True)
-class _Kind:
-    """How one kind of question is asked."""
+class Kind:
+    """How one kind of question is asked.
 
-    call: Callable[..., Result]
+    Attributes
+    ----------
+    function : str
+        Name of the function of ``trackig_core.decide`` that answers.
+    settings : tuple of str
+        Its arguments that make the question.
+    needs_specification : bool
+        Whether there is no answer without one.
+    takes_source : bool
+        Whether it takes a source spectrum.
+    takes_how : bool
+        Whether it takes the arguments of :class:`How`.
+    """
+
+    function: str
     settings: tuple[str, ...]
     needs_specification: bool = True
     takes_source: bool = False
@@ -52,30 +61,30 @@ class _Kind:
 
 
 KINDS = {
-    "range": _Kind(feasible_ranges, ("fields", "ranges")),
-    "sensitivity": _Kind(
-        sensitivity, ("changes",), needs_specification=False, takes_source=True, takes_how=False
+    "range": Kind("feasible_ranges", ("fields", "ranges")),
+    "sensitivity": Kind(
+        "sensitivity", ("changes",), needs_specification=False, takes_source=True, takes_how=False
     ),
-    "sobol": _Kind(
-        sobol,
+    "sobol": Kind(
+        "sobol",
         ("tolerances", "production", "figures", "samples", "seed"),
         needs_specification=False,
         takes_source=True,
     ),
-    "tolerance": _Kind(tolerance, ("tolerances", "production", "samples", "seed")),
-    "map": _Kind(
-        design_map,
+    "tolerance": Kind("tolerance", ("tolerances", "production", "samples", "seed")),
+    "map": Kind(
+        "design_map",
         ("x_field", "y_field", "figures", "ranges", "points"),
         needs_specification=False,
         takes_source=True,
     ),
-    "find": _Kind(
-        find,
+    "find": Kind(
+        "find",
         ("free", "choices", "objectives", "cost", "population", "generations", "seed"),
         takes_source=True,
     ),
 }
-"""Kinds of question, by the word of the command line."""
+"""Kinds of question by name."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +115,7 @@ class Question:
 
     kind: str
     design: TrackDesign
-    settings: Mapping[str, Any] = field(default_factory=dict)
+    settings: Mapping[str, Any] = field(default_factory=dict, hash=False)
     specification: Specification | None = None
     source: SourceSpectrum | None = None
     reference: str = "line"
@@ -121,6 +130,7 @@ class Question:
             if name not in (*kind.settings, "max_deflection"):
                 allowed = ", ".join((*kind.settings, "max_deflection"))
                 raise ValueError(f"{self.kind} has no setting {brief(name)}: give {allowed}")
+            _check_plain(self.settings[name], name)
         if self.specification is None and kind.needs_specification:
             raise ValueError(f"{self.kind} needs a specification to hold designs against: give one")
         Requirements(self.specification, self.source, self.reference, self.summation)
@@ -157,7 +167,7 @@ class Question:
             arguments["source"] = self.source
         if kind.takes_how:
             arguments |= how
-        return kind.call(self.design, **arguments)
+        return getattr(import_module("trackig_core.decide"), kind.function)(self.design, **arguments)
 
 
 @dataclass(frozen=True)
@@ -174,12 +184,24 @@ class Answer:
         SHA-256 of every figure.
     versions : dict of str to str
         What computed it: versions by package.
+
+    Raises
+    ------
+    ValueError
+        If a text is none that can be printed.
     """
 
     question: Question
     sentence: str
     digest: str
-    versions: Mapping[str, str]
+    versions: Mapping[str, str] = field(hash=False)
+
+    def __post_init__(self) -> None:
+        """Check what a file may have given."""
+        texts = {"sentence": self.sentence, "digest": self.digest, **self.versions}
+        for name, text in texts.items():
+            if not isinstance(text, str) or not text.isprintable():
+                raise ValueError(f"{name} = {brief(text)}: give a text of printable characters")
 
     @classmethod
     def of(cls, question: Question, result: Result) -> Answer:
@@ -217,11 +239,23 @@ def digest(result: Result) -> str:
     return found.hexdigest()
 
 
+def _check_plain(value: Any, name: str) -> None:
+    """Raise a ValueError if a setting is not made of numbers, texts, lists and dicts, as files are."""
+    if isinstance(value, Mapping):
+        for key, each in value.items():
+            _check_plain(each, f"{name}.{key}")
+    elif isinstance(value, list | tuple):
+        for each in value:
+            _check_plain(each, name)
+    elif not isinstance(value, bool | int | float | str):
+        raise ValueError(f"{name} = {brief(value)}: give numbers, texts, lists and dicts of them")
+
+
 def _same(value: Any) -> Any:
     return value
 
 
-def _tolerances(given: Mapping[str, Any]) -> dict[str, float | Tolerance]:
+def _tolerances(given: Mapping[str, Any]) -> dict[str, Any]:
     """Return tolerances of plain values."""
     return {name: _tolerance(name, value) for name, value in given.items()}
 
@@ -229,7 +263,10 @@ def _tolerances(given: Mapping[str, Any]) -> dict[str, float | Tolerance]:
 def _tolerance(name: str, given: Any) -> Any:
     if not isinstance(given, Mapping):
         return given
-    kinds: dict[str, Callable[[float], Tolerance]] = {"uniform": Uniform, "normal": Normal}
+    # slow to load, and a study that holds a question need not ask it
+    from trackig_core.decide.tolerances import Normal, Uniform
+
+    kinds: dict[str, Callable[[float], Any]] = {"uniform": Uniform, "normal": Normal}
     if len(given) != 1 or not set(given) <= set(kinds):
         raise ValueError(f"tolerance of {name} = {brief(given)}: give a share, or one of uniform and normal")
     ((kind, share),) = given.items()

@@ -39,7 +39,7 @@ def plain(field: str) -> str:
 def percent(share: float) -> str:
     """Return a share [-] in per cent, such as ``"94 %"``, with a decimal near nothing and near all."""
     if 0 < share < 0.0005:
-        return "Under 0.1 %"
+        return "under 0.1 %"
     if share in (0.0, 1.0) or 0.02 <= share <= 0.98:
         return f"{100 * share:.0f} %"
     return f"{100 * share:.1f} %"
@@ -52,3 +52,8 @@ def in_unit(name: str, value: float) -> str:
     if name in UNITS:
         return f"{value:.1f} {UNITS[name]}"
     return amount(name, value) if name in RANGES else f"{value:.4g}"
+
+
+def sentence(text: str) -> str:
+    """Return a text that begins with a capital."""
+    return text[0].upper() + text[1:]

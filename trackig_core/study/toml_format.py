@@ -10,6 +10,7 @@ refused rather than dropped, and an error says where it is and what to do.
 from __future__ import annotations
 
 import difflib
+import textwrap
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields
@@ -17,8 +18,9 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import tomlkit
-from tomlkit.items import Float, Table, Trivia
+from tomlkit.items import Array, Float, Table, Trivia
 
+from trackig_core.decide.questions import Answer, Question
 from trackig_core.levels.band_tables import BandTable, BandTableError
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
@@ -49,6 +51,9 @@ MOST_BYTES = 262_144
 LONGEST_LINE = 200
 """Characters that a line may have, unless it is a comment [-]. Dotted keys cost a reader the square of their
 length; with this bound the worst file takes about a second."""
+
+LONGEST_TEXT = 100
+"""Characters of a sentence that are written on one line [-]."""
 
 _DESIGN_KEYS = {each.name: each.key for each in DESIGN_FIELDS}
 """Key of each number of a design."""
@@ -181,6 +186,7 @@ def read(data: str | bytes) -> dict[str, Any]:
         "design": _design(section.section("design")),
         "view": view,
         "pinned": [_pinned(_Section(each, f"pinned[{number}]")) for number, each in enumerate(pinned)],
+        "answers": _answers(section),
         **tables,
     }
     section.close()
@@ -240,6 +246,39 @@ def _limits(section: _Section) -> dict[str, Any]:
     return {name: value for name, value in limits.items() if value is not None}
 
 
+def _answers(study: _Section) -> list[Answer]:
+    """Return the questions that were asked, and what came out."""
+    given = study.take("answers", [])
+    if not isinstance(given, list):
+        raise StudyError(f"{brief(given)}: write each answer under [[answers]]", "answers")
+    return [_answer(_Section(each, f"answers[{number}]")) for number, each in enumerate(given)]
+
+
+def _answer(section: _Section) -> Answer:
+    values = {
+        "kind": section.need("question"),
+        "design": _design(section.section("design")),
+        "settings": section.take("settings", {}),
+        "reference": section.take("reference", "line"),
+        "summation": section.take("summation", "energy"),
+        **{name: _table(section, name, *kind) for name, kind in _TABLES.items()},
+    }
+    lines, digest, versions = (section.need(key) for key in ("sentence", "digest", "versions"))
+    section.close()
+    for key, value, kind, words in (
+        ("settings", values["settings"], dict, "a table of keys and values"),
+        ("sentence", lines, list, "a list of its lines"),
+        ("digest", digest, str, "a text"),
+        ("versions", versions, dict, "a table of names and versions"),
+    ):
+        if not isinstance(value, kind):
+            raise StudyError(f"{brief(value)}: give {words}", section.under(key))
+    try:
+        return Answer(Question(**values), " ".join(map(str, lines)), digest, versions)
+    except (TypeError, ValueError) as error:
+        raise StudyError(str(error), section.path) from None
+
+
 def _design(section: _Section) -> TrackDesign:
     values = {name: section.take(key) for name, key in _DESIGN_KEYS.items()}
     for name, (key, kind) in _CURVES.items():
@@ -297,6 +336,11 @@ def written(study: Study) -> str:
         for each in study.pinned:
             pinned.append(_written_pinned(each))
         document.add("pinned", pinned)
+    if study.answers:
+        answers = tomlkit.aot()
+        for answer in study.answers:
+            answers.append(_written_answer(answer))
+        document.add("answers", answers)
     return tomlkit.dumps(document)
 
 
@@ -315,6 +359,47 @@ def _written_pinned(pinned: PinnedDesign) -> Table:
             table.add(key, getattr(pinned, key))
     table.add("design", _written_design(pinned.design))
     return table
+
+
+def _written_answer(answer: Answer) -> Table:
+    question, table = answer.question, tomlkit.table()
+    table.add("question", question.kind)
+    table.add("sentence", _list(textwrap.wrap(answer.sentence, LONGEST_TEXT)))
+    for key in ("digest", "versions"):
+        table.add(key, getattr(answer, key))
+    for key in ("reference", "summation"):
+        table.add(key, getattr(question, key))
+    if question.settings:
+        table.add("settings", _written_settings(question.settings))
+    table.add("design", _written_design(question.design))
+    for name, (_, key) in _TABLES.items():
+        if getattr(question, name) is not None:
+            table.add(name, _written_table(getattr(question, name), key))
+    return table
+
+
+def _written_settings(settings: Mapping[str, Any]) -> Table:
+    """Return plain values as a table; lists stand one entry a line."""
+    table = tomlkit.table()
+    for key, value in settings.items():
+        if isinstance(value, Mapping):
+            table.add(key, _written_settings(value))
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
+            rows = tomlkit.aot()
+            for each in value:
+                rows.append(_written_settings(each))
+            table.add(key, rows)
+        elif isinstance(value, list | tuple):
+            table.add(key, _list(value))
+        else:
+            table.add(key, value)
+    return table
+
+
+def _list(values: Iterable[Any]) -> Array:
+    array = tomlkit.array()
+    array.extend(values)
+    return array.multiline(True)
 
 
 def _written_design(design: TrackDesign) -> Table:
