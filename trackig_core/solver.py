@@ -14,7 +14,7 @@ from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.frequency_domain.convergence import time_step_errors
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
 from trackig_core.frequency_domain.refinement import banded_spectrum
-from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
+from trackig_core.frequency_domain.track_model import DAMPINGS, Track, TrackModel, track_model
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
 from trackig_core.results import ForceSpectrum, NaturalFrequencies, TimeHistory
 from trackig_core.solution import Solution
@@ -41,6 +41,7 @@ def solve(
     *,
     reference: str = "line",
     summation: str = "energy",
+    damping: str = "viscoelastic",
     progress: Callable[[float], object] | None = None,
     cancelled: Callable[[], object] | None = None,
 ) -> Solution:
@@ -60,6 +61,9 @@ def solve(
         ``"line"`` (the paper's straight line) or ``"rigid"`` (the exact rigid track).
     summation : str
         ``"energy"`` (squared support forces, the paper's) or ``"coherent"`` (forces).
+    damping : str
+        ``"viscoelastic"`` (the paper's: loss stiffens with frequency) or, with fidelity ``"exact"`` alone,
+        ``"hysteretic"`` (k (1 + i eta) at every frequency, as many other programs have it; not causal).
     progress : callable, optional
         Called now and then with the fraction done, 0 to 1, from the calling thread; not when exact.
     cancelled : callable, optional
@@ -81,14 +85,20 @@ def solve(
     DesignError
         If ``design`` is no design, or its exact solution has no bound for want of any loss.
     ValueError
-        If a choice is not one of the above.
+        If a choice is not one of the above, or hysteretic damping is to be stepped in time.
     """
-    model = track_model(design)
+    check_choice("damping", damping, DAMPINGS)
+    model = track_model(design, damping)
     check_choice("fidelity", fidelity, FIDELITIES)
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
     grid: Grid | None = None
     history: TimeHistory | None = None
+    if fidelity != "exact" and not model.causal:
+        raise ValueError(
+            "damping = 'hysteretic' is not causal and cannot be stepped in time, as fidelity "
+            f"{fidelity!r} does: give fidelity 'exact', or damping 'viscoelastic'"
+        )
     if fidelity == "exact":
         spectrum = banded_spectrum(model)
         notes = _sharpness_notes(spectrum)
@@ -145,6 +155,8 @@ def _observed(
 
 
 def _fit_notes(model: TrackModel) -> tuple[str, ...]:
+    if not model.causal:
+        return ("hysteretic damping, k (1 + i eta): not causal, for comparison with other programs",)
     return tuple(
         f"the law fitted to the {part} misses the stated values by up to {law.worst_error:.0%}, 5 to 500 Hz"
         for part, law in zip(("pad", "boot"), model.springs, strict=False)

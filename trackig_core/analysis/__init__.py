@@ -21,6 +21,7 @@ from trackig_core.analysis.lumped import (
 )
 from trackig_core.analysis.motion import Motion, film
 from trackig_core.analysis.rolland import PeerReceptance, peer_receptances
+from trackig_core.analysis.single_degree import single_degree_gain, single_degree_insertion_loss
 from trackig_core.analysis.statics import (
     StaticResponse,
     limited_deflection,
@@ -34,6 +35,7 @@ from trackig_core.frequency_domain.floquet_waves import receptance, track_decay_
 from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.frequency_domain.natural_frequencies import cut_on
 from trackig_core.frequency_domain.operating_shapes import SteadyShape, steady_shape
+from trackig_core.frequency_domain.track_model import track_model
 
 __all__ = [
     "GOOD_ENOUGH",
@@ -69,11 +71,14 @@ __all__ = [
     "measured_slopes",
     "peer_receptances",
     "receptance",
+    "single_degree_gain",
+    "single_degree_insertion_loss",
     "static_response",
     "steady_shape",
     "stiff_references",
     "time_step_errors",
     "track_decay_rate",
+    "track_model",
     "verify",
     "with_loss_factor",
     "zimmermann_deflection",

@@ -435,10 +435,11 @@ def _tracks(columns: Columns) -> RealArray:
     """Return a chunk of designs as the kernels take them (n, 19)."""
     two_stage = np.array([mass is not None for mass in columns["block_mass"]])
     tracks = np.zeros((two_stage.size, kernels.COLUMNS))
-    _fill_laws(tracks[:, kernels.PAD : kernels.PAD + 7], columns["pad_stiffness"], columns["pad_loss_factor"])
-    boots = tracks[:, kernels.BOOT : kernels.BOOT + 7]
-    _fill_laws(boots, columns["boot_stiffness"], columns["boot_loss_factor"])
-    grounded = np.where(two_stage[:, None], boots, tracks[:, kernels.PAD : kernels.PAD + 7])
+    pads, boots = (tracks[:, first : first + 7] for first in (kernels.PAD, kernels.BOOT))
+    for laws, part in ((pads, "pad"), (boots, "boot")):
+        stiffness, loss_factor = columns[f"{part}_stiffness"], columns[f"{part}_loss_factor"]
+        _fill_laws(laws, stiffness, loss_factor, columns["stiffness_frequency"].astype(float))
+    grounded = np.where(two_stage[:, None], boots, pads)
     lossless = ~(grounded[:, 1:4] > 0).any(axis=1)
     if lossless.any():
         allowed = "more than 0: without loss the exact spectrum has no bound"
@@ -454,10 +455,10 @@ def _tracks(columns: Columns) -> RealArray:
     return tracks
 
 
-def _fill_laws(laws: RealArray, stiffness: AnyArray, loss_factor: AnyArray) -> None:
-    """Fill in the laws (n, 7) of springs; zeros where there is none."""
+def _fill_laws(laws: RealArray, stiffness: AnyArray, loss_factor: AnyArray, stated: RealArray) -> None:
+    """Fill in the laws (n, 7) of springs, stiffnesses stated at given frequencies; zeros for no spring."""
     if stiffness.dtype == loss_factor.dtype == float:
-        _fill_constant(laws, stiffness, loss_factor)
+        _fill_constant(laws, stiffness, loss_factor, stated)
         return
     plain = np.array(
         [
@@ -467,18 +468,26 @@ def _fill_laws(laws: RealArray, stiffness: AnyArray, loss_factor: AnyArray) -> N
     )
     if plain.any():
         constant = laws[plain]
-        _fill_constant(constant, stiffness[plain].astype(float), loss_factor[plain].astype(float))
+        _fill_constant(
+            constant, stiffness[plain].astype(float), loss_factor[plain].astype(float), stated[plain]
+        )
         laws[plain] = constant
     for row in np.flatnonzero(~plain):
         if stiffness[row] is not None:
-            laws[row] = law_row(relaxation(_plain(stiffness[row]), _plain(loss_factor[row])))
+            laws[row] = law_row(
+                relaxation(_plain(stiffness[row]), _plain(loss_factor[row]), float(stated[row]))
+            )
 
 
-def _fill_constant(laws: RealArray, stiffness: RealArray, loss_factor: RealArray) -> None:
+def _fill_constant(laws: RealArray, stiffness: RealArray, loss_factor: RealArray, stated: RealArray) -> None:
     """Fill in the laws (n, 7) of springs of constant loss factors."""
     strengths, times, _ = interpolated_terms(loss_factor)
     strengths[loss_factor < NEGLIGIBLE] = 0.0
     relaxed = strengths / (1 + (2 * np.pi * REFERENCE_FREQUENCY * times) ** 2)
-    laws[:, 0] = stiffness * (1.0 + relaxed.sum(axis=1))
+    instantaneous = 1.0 + relaxed.sum(axis=1)
+    if (stated != REFERENCE_FREQUENCY).any():
+        there = strengths / (1 + (2 * np.pi * stated[:, None] * times) ** 2)
+        stiffness = stiffness / (instantaneous - there.sum(axis=1))
+    laws[:, 0] = stiffness * instantaneous
     laws[:, 1:4] = stiffness[:, None] * strengths
     laws[:, 4:7] = times

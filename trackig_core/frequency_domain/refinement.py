@@ -48,7 +48,7 @@ def resolved_spectrum(
         Energy at the given and the added frequencies.
     """
     model = track_model(design)
-    if lattice == INFINITE:  # all of it compiled
+    if lattice == INFINITE and model.causal:  # all of it compiled
         axis, energy, coherent_energy = batch_kernels.resolve_row(model.row, frequency)
         return ForceSpectrum(axis, energy * step**2, coherent_energy * step**2, step)
     return refined_spectrum(lambda between: exact_spectrum(model, between, step, lattice), frequency)
@@ -119,7 +119,7 @@ def require_damping(design: Track) -> None:
         If the spring that stands on the ground has no loss.
     """
     model = track_model(design)
-    if not model.springs[-1].strengths:
+    if model.springs[-1].lossless:
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more than 0: without loss the exact spectrum has no bound")
 

@@ -26,7 +26,7 @@ from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.study.records import PinnedDesign, StudyError, View
-from trackig_core.track.design import TrackDesign
+from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.fields import DESIGN_FIELDS, RAIL_FIELDS, STATIC_FIELDS, DesignError
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
 from trackig_core.track.rails import Rail
@@ -57,6 +57,9 @@ LONGEST_TEXT = 100
 
 _DESIGN_KEYS = {each.name: each.key for each in DESIGN_FIELDS}
 """Key of each number of a design."""
+
+_OPTIONAL = {"stiffness_frequency": REFERENCE_FREQUENCY}
+"""What a number is that a file leaves out."""
 
 _RAIL_KEYS = {"name": "name"} | {each.name: each.key for each in RAIL_FIELDS}
 """Key of the name and of each number of a rail."""
@@ -280,7 +283,7 @@ def _answer(section: _Section) -> Answer:
 
 
 def _design(section: _Section) -> TrackDesign:
-    values = {name: section.take(key) for name, key in _DESIGN_KEYS.items()}
+    values = {name: section.take(key, _OPTIONAL.get(name)) for name, key in _DESIGN_KEYS.items()}
     for name, (key, kind) in _CURVES.items():
         points = section.take(key)
         if points is None:
@@ -321,7 +324,9 @@ def written(study: Study) -> str:
     """Return a study as the text of a file."""
     document = tomlkit.document()
     document.add(tomlkit.comment("A study of trackig: insertion gain of railway track supports."))
-    document.add(tomlkit.comment("SI units, as the keys say; stiffnesses are dynamic stiffnesses at 50 Hz."))
+    document.add(
+        tomlkit.comment("SI units, as the keys say; stiffnesses are dynamic, at 50 Hz unless stated.")
+    )
     for key, value in (("format", FORMAT), ("version", VERSION), ("name", study.name)):
         document.add(key, value)
     if study.preset is not None:
@@ -408,7 +413,7 @@ def _written_design(design: TrackDesign) -> Table:
         value = getattr(design, name)
         if isinstance(value, StiffnessCurve | LossFactorCurve):
             _add_rows(table, _CURVES[name][0], value.points, _CURVE_ROWS[type(value)])
-        elif value is not None:
+        elif value is not None and value != _OPTIONAL.get(name):
             table.add(key, _number(value))
     rail = tomlkit.table()
     for name, key in _RAIL_KEYS.items():

@@ -42,15 +42,16 @@ RAIL_FIELDS = (
 
 DESIGN_FIELDS = (
     Field("pad_stiffness", "N/m", 1e5, 1e13, "pad_stiffness_N_per_m"),
-    Field("pad_loss_factor", "", 0.0, 1.0, "pad_loss_factor"),
+    Field("pad_loss_factor", "", 0.0, 2.0, "pad_loss_factor"),
     Field("block_mass", "kg", 1.0, 1e4, "block_mass_kg"),
     Field("boot_stiffness", "N/m", 1e5, 1e13, "boot_stiffness_N_per_m"),
-    Field("boot_loss_factor", "", 0.0, 1.0, "boot_loss_factor"),
+    Field("boot_loss_factor", "", 0.0, 2.0, "boot_loss_factor"),
     Field("fastener_spacing", "m", 0.1, 2.0, "fastener_spacing_m"),
     Field("wheel_mass", "kg", 10.0, 1e4, "wheel_mass_kg"),
     Field("contact_stiffness", "N/m", 1e6, 1e14, "contact_stiffness_N_per_m"),
     Field("pad_static_stiffness", "N/m", 1e5, 1e13, "pad_static_stiffness_N_per_m"),
     Field("boot_static_stiffness", "N/m", 1e5, 1e13, "boot_static_stiffness_N_per_m"),
+    Field("stiffness_frequency", "Hz", 1.0, 1000.0, "stiffness_frequency_Hz"),
 )
 """Numbers of a design."""
 

@@ -222,7 +222,7 @@ def changed(old, new):
         (changed("colour = 3", "colour = 3.0"), "pinned[0].colour: 3.0"),
         (changed("colour = 3", "color = 3"), "pinned[0].color: there is no such key; write 'colour'"),
         (changed("shown = false", "shown = 0"), "pinned[0].shown: 0: give true or false"),
-        (changed("pad_loss_factor = 0.15", "pad_loss_factor = 1.5"), "pinned[0].design.pad_loss_factor: 1.5"),
+        (changed("pad_loss_factor = 0.15", "pad_loss_factor = 2.5"), "pinned[0].design.pad_loss_factor: 2.5"),
         (changed("[31.5, -3.0]", "[32.9, -3.0]"), "specification.ig_max_dB: row 2, column 1: "),
         (changed("[31.5, -3.0]", "[31.5, nan]"), "specification.ig_max_dB: row 2, column 2: "),
         (changed('name = "Client"', 'name = ""'), "specification: name = ''"),
