@@ -26,6 +26,7 @@ from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.results import SolveCancelled
 from trackig_core.track.design import TrackDesign
+from trackig_core.track.static_stiffness import stand_in
 
 if TYPE_CHECKING:
     import pandas
@@ -164,7 +165,8 @@ def find(
     specification : Specification
         Greatest insertion gain per band [dB], and deflection [m].
     free : sequence of str, or dict of str to (float, float)
-        Fields that are free, with their ranges [unit of the field]; by default :data:`SLIDER_RANGES`.
+        Fields that are free, with their ranges [unit of the field]; by default :data:`SLIDER_RANGES`. A
+        stated static stiffness keeps its ratio to the dynamic one.
     choices : dict of str to sequence, optional
         What is chosen from a catalogue: values by field, or by any other name dicts of several fields at
         once, each of which may have a ``"cost"``.
@@ -211,7 +213,7 @@ def find(
         done, part = number / generations, 1 / generations
         tried = search.ask()
         places = np.array(tried.get("X"), dtype=float)
-        columns = space.columns(places)
+        columns = _with_static(design, space.columns(places))
         try:
             many = solve_designs(design, columns, {**how, "progress": None})
         except SolveCancelled:
@@ -390,6 +392,16 @@ class _Trail:
             generations=len(self.parts),
             stopped=stopped,
         )
+
+
+def _with_static(design: TrackDesign, columns: dict[str, AnyArray]) -> dict[str, AnyArray]:
+    """Return columns in which a stated static stiffness keeps its ratio to a dynamic one that is free."""
+    for part in ("pad", "boot"):
+        static, dynamic = f"{part}_static_stiffness", f"{part}_stiffness"
+        stated, free = getattr(design, static), columns.get(dynamic)
+        if static not in columns and stated is not None and free is not None and free.dtype != object:
+            columns[static] = free * (stated / stand_in(None, getattr(design, dynamic)))
+    return columns
 
 
 def _not_dominated(values: RealArray) -> IntArray:

@@ -32,7 +32,7 @@ from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
-from trackig_core.track.fields import RANGES
+from trackig_core.track.fields import SCATTERED
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 
 if TYPE_CHECKING:
@@ -170,7 +170,7 @@ def sensitivity(
 
 def _changes(design: TrackDesign, changes: float | Mapping[str, float]) -> dict[str, float]:
     """Return the change of each field, checked."""
-    known = [name for name in RANGES if getattr(design, name, None) is not None]
+    known = [name for name in SCATTERED if getattr(design, name) is not None]
     given = dict(changes) if isinstance(changes, Mapping) else dict.fromkeys(known, changes)
     for name, change in given.items():
         if name not in known:

@@ -20,7 +20,7 @@ from scipy.stats import qmc
 from trackig_core.arrays import AnyArray, RealArray
 from trackig_core.names import brief
 from trackig_core.track.design import REFERENCE_FREQUENCY, Rail, TrackDesign
-from trackig_core.track.fields import RANGES, DesignError
+from trackig_core.track.fields import RANGES, SCATTERED, DesignError
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 
 CONFIDENCE = 0.95
@@ -229,9 +229,9 @@ def make_factors(
 
 
 def _tolerance_factor(design: TrackDesign, name: str, tolerance: Tolerance) -> Factor:
-    stated = getattr(design, name, None)
-    if not isinstance(stated, float) or name not in RANGES:
-        numbers = [each for each in RANGES if isinstance(getattr(design, each, None), float)]
+    stated = getattr(design, name) if name in SCATTERED else None
+    if not isinstance(stated, float):
+        numbers = [each for each in SCATTERED if isinstance(getattr(design, each), float)]
         raise ValueError(
             f"{brief(name)} is not a single number of this design, so it has no tolerance: give any of "
             f"{', '.join(numbers)}"

@@ -82,6 +82,9 @@ SLIDER_RANGES = {
 """Lowest and highest value of each number that a designer chooses from [SI]: what sliders offer, and what is
 searched unless other ranges are given."""
 
+SCATTERED = (*SLIDER_RANGES, "pad_static_stiffness", "boot_static_stiffness")
+"""Numbers of a design that production scatters and that may be changed by a share of themselves."""
+
 
 class DesignError(ValueError):
     """A design has a value that no track can have.

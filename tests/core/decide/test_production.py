@@ -153,9 +153,9 @@ def test_what_cannot_be_drawn_is_refused(tolerances, production, error, message)
 
 
 def test_a_tolerance_beyond_what_a_track_can_have_is_refused():
-    soft = BLOCK.replace(pad_loss_factor=0.95)
+    soft = BLOCK.replace(pad_loss_factor=1.95)
     with pytest.raises(
-        tig.DesignError, match=r"pad_loss_factor = 1\.04.*a tolerance that stays within 0 to 1"
+        tig.DesignError, match=r"pad_loss_factor = 2\.14.*a tolerance that stays within 0 to 2"
     ):
         make_factors(soft, {"pad_loss_factor": 0.1})
 

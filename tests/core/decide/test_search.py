@@ -97,6 +97,14 @@ def test_catalogue_choices_are_taken_whole(specification):
     np.testing.assert_array_equal(found.values[:, 2], found.many.columns["block_mass"])
 
 
+def test_a_static_stiffness_keeps_its_ratio(specification):
+    stated = BLOCK.replace(boot_static_stiffness=14e6, pad_static_stiffness=60e6)
+    found = find(stated, specification, ["boot_stiffness"], population=8, generations=2)
+    columns = found.many.columns
+    np.testing.assert_allclose(columns["boot_static_stiffness"], columns["boot_stiffness"] / 2)
+    assert {*columns["pad_static_stiffness"]} == {60e6}
+
+
 def test_the_same_seed_finds_the_same(found, specification):
     again = find(BLOCK, specification, FREE, max_deflection=2e-3, population=40, generations=60, seed=1)
     assert np.array_equal(again.values, found.values)
