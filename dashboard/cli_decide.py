@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import trackig_core as tig
+from trackig_core.solver import FIDELITIES
 from trackig_core.track.fields import SLIDER_RANGES
 
 FAILED, STOPPED = 1, 130
@@ -27,6 +28,9 @@ FAILED, STOPPED = 1, 130
 
 STANDARD_OUTPUT = Path("-")
 """What stands for standard output where a file is written."""
+
+SAMPLES = 10_000
+"""Samples that are drawn into a folder unless a number is given [-]."""
 
 MOST_BYTES = 10_000_000
 """Size that a table of specimens or products may have [bytes]."""
@@ -155,6 +159,7 @@ def _add_tolerance(commands, shell):
     command.add_argument("--samples", type=int, metavar="N", help="samples that are drawn, 10000 by default")
     _add_seed(command)
     _add_scheduler(command)
+    _add_parquet(command)
 
 
 def _add_map(commands, shell):
@@ -181,6 +186,7 @@ def _add_map(commands, shell):
         "--points", type=_points, metavar="NXxNY", help="points along x and y, 200x200 by default"
     )
     _add_scheduler(command)
+    _add_parquet(command)
 
 
 def _add_find(commands, shell):
@@ -291,6 +297,18 @@ def _add_scheduler(command):
     )
 
 
+def _add_parquet(command):
+    command.add_argument(
+        "--parquet",
+        type=Path,
+        metavar="FOLDER",
+        help="solve into a folder of Parquet files instead, any number of designs; go on where that ended",
+    )
+    command.add_argument(
+        "--fidelity", choices=FIDELITIES, default="exact", help="with --parquet: exact unless given"
+    )
+
+
 def _asked(kind, **settings):
     """Return the kind of question, and the settings that were given."""
     return kind, {name: value for name, value in settings.items() if value not in (None, {}, [])}
@@ -318,6 +336,8 @@ def _answer(shell, kind, settings, options):
     from trackig_core.decide import Answer, Question
 
     study = shell.open_study(options.study)
+    if getattr(options, "parquet", None) is not None:
+        return _job(study, kind, settings, options)
     if options.max_deflection is not None:
         settings["max_deflection"] = options.max_deflection
     question = Question(
@@ -329,9 +349,7 @@ def _answer(shell, kind, settings, options):
         reference=study.view.reference,
         summation=study.view.summation,
     )
-    with _watched() as how:
-        if options.scheduler is not None:
-            how["scheduler"] = options.scheduler
+    with _watched(options.scheduler) as how:
         result = question.ask(**how)
     table = result.to_dataframe()
     if STANDARD_OUTPUT not in (options.csv, options.json):
@@ -343,6 +361,34 @@ def _answer(shell, kind, settings, options):
     if getattr(result, "stopped", False):
         return STOPPED
     return 0 if _anything_complies(result) else FAILED
+
+
+def _job(study, kind, settings, options):
+    """Solve what a question is about into a folder, part by part."""
+    from trackig_core.decide import Grid, Samples, run_job
+    from trackig_core.decide.maps import map_axes
+    from trackig_core.decide.questions import arguments
+
+    design, given = _design(study, options.design), arguments(settings)
+    if kind == "map":
+        given.pop("figures", None)
+        x, y = map_axes(design, **given)
+        designs = Grid(design, {given["y_field"]: y, given["x_field"]: x})
+    else:
+        size = given.pop("samples", SAMPLES)
+        designs = Samples(design, given.pop("tolerances", {}), size, **given)
+    view = study.view
+    with _watched(options.scheduler) as how:
+        job = run_job(
+            designs,
+            options.parquet,
+            fidelity=options.fidelity,
+            reference=view.reference,
+            summation=view.summation,
+            **how,
+        )
+    sys.stdout.write(f"{job}\n")
+    return 0
 
 
 def _design(study, name):
@@ -420,7 +466,7 @@ def _json(answer, table):
 
 
 @contextmanager
-def _watched():
+def _watched(scheduler):
     """Tell on standard error how far it is, and let Ctrl+C ask it to end; a second Ctrl+C ends it at once."""
     stop = threading.Event()
 
@@ -441,7 +487,7 @@ def _watched():
 
     before = signal.signal(signal.SIGINT, interrupted)
     try:
-        yield {"progress": progress, "cancelled": stop.is_set}
+        yield {"progress": progress, "cancelled": stop.is_set, "scheduler": scheduler}
     finally:
         signal.signal(signal.SIGINT, before)
 

@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 
 import trackig_core as tig
@@ -218,6 +220,25 @@ def test_it_does_not_write_over_files(save, tmp_path, capsys):
     assert out.read_text() == "mine"
     assert "give --force" in capsys.readouterr().err
     assert main(["range", save(), "--csv", str(out), "--force"]) == 0
+
+
+def test_designs_go_to_a_folder_part_by_part(save, tmp_path, capsys):
+    folder = tmp_path / "map"
+    words = ["map", save(), "boot_stiffness", "block_mass", "--points", "5x4", "--parquet", str(folder)]
+    assert main(words) == 0
+    assert capsys.readouterr().out == "20 designs are solved, in 1 part of which 0 were there.\n"
+    assert main(words) == 0
+    assert "1 part of which 1" in capsys.readouterr().out
+    expected = tig.decide.design_map(BLOCK, "boot_stiffness", "block_mass", points=(5, 4), figures=["63"])
+    found = pd.read_parquet(folder)
+    assert np.array_equal(found["63"].to_numpy().reshape(4, 5), expected.figures["63"])
+    words = ["tolerance", save(), "--tolerance", "boot_stiffness=10%", "--samples", "50", "--parquet"]
+    assert main([*words, str(folder)]) == 2
+    assert "holds another job" in capsys.readouterr().err
+    assert main([*words, str(tmp_path / "samples")]) == 0
+    found = pd.read_parquet(tmp_path / "samples")["boot_stiffness"]
+    expected = tig.decide.tolerance(BLOCK, CEILING, {"boot_stiffness": 0.1}, samples=200)
+    assert found.tolist() == expected.many.columns["boot_stiffness"][:50].tolist()
 
 
 @pytest.mark.slow

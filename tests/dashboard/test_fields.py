@@ -6,4 +6,5 @@ from trackig_core.track.fields import SLIDER_RANGES
 
 def test_sliders_offer_the_ranges_that_are_searched():
     """Where a slider ends in display units, the search for feasible ranges ends in SI units."""
-    assert {name: (each.to_si(each.low), each.to_si(each.high)) for name, each in FIELDS.items()} == SLIDER_RANGES
+    shown = {name: (each.to_si(each.low), each.to_si(each.high)) for name, each in FIELDS.items()}
+    assert shown == SLIDER_RANGES

@@ -41,8 +41,8 @@ STEPPED_PART = 64
 STEPPED_TASK = 4
 """Designs of a task that are stepped in time [-]."""
 
-JOB_FILE = "job.json"
-"""What says of which job the parts are."""
+JOB_FILE = "_job.json"
+"""What says of which job the parts are. What reads a folder of Parquet files passes over names like it."""
 
 
 class Designs(Protocol):
@@ -176,7 +176,8 @@ class Job:
 
     def __str__(self) -> str:
         """Return one sentence."""
-        return f"{self.designs} designs are solved, in {self.parts} parts of which {self.skipped} were there."
+        parts = f"{self.parts} part{'' if self.parts == 1 else 's'}"
+        return f"{self.designs} designs are solved, in {parts} of which {self.skipped} were there."
 
 
 def part_name(number: int) -> str:
@@ -295,7 +296,7 @@ def _claim(folder: Path, description: dict[str, Any]) -> None:
 
 def _replace(file: Path, write: Callable[[Path], object]) -> None:
     """Write a file that is either whole or not there."""
-    unfinished = file.with_name(f"{file.name}.{os.getpid()}.unfinished")
+    unfinished = file.with_name(f"_{file.name}.{os.getpid()}.unfinished")
     try:
         write(unfinished)
         os.replace(unfinished, file)

@@ -149,12 +149,9 @@ def design_map(
     required = Requirements(specification, source, reference, summation, max_deflection)
     names = required.figures(design) if figures is None else tuple(figures)
     required.check_figures(names, design)
-    if x_field == y_field:
-        raise ValueError(f"both fields are {x_field}: give two")
-    searched = searched_ranges(design, (x_field, y_field), ranges)
     if not all(2 <= count <= MOST_POINTS for count in points):
         raise ValueError(f"points = {points}: give two numbers from 2 to {MOST_POINTS}")
-    x, y = (_axis(name, ends, count) for (name, ends), count in zip(searched.items(), points, strict=True))
+    x, y = map_axes(design, x_field, y_field, ranges, points)
     columns = {x_field: np.tile(x, y.size), y_field: np.repeat(y, x.size)}
     many = solve_designs(design, columns, how)
     shape = (y.size, x.size)
@@ -167,6 +164,36 @@ def design_map(
         figures={name: required.values(many, name).reshape(shape) for name in names},
         complies=None if specification is None else required.complies(many).reshape(shape),
     )
+
+
+def map_axes(
+    design: TrackDesign,
+    x_field: str,
+    y_field: str,
+    ranges: Ranges | None = None,
+    points: tuple[int, int] = (POINTS, POINTS),
+) -> tuple[RealArray, RealArray]:
+    """Return the values of two fields over which a map is drawn, however many.
+
+    Parameters
+    ----------
+    design, x_field, y_field, ranges, points
+        As for :func:`design_map`.
+
+    Returns
+    -------
+    x, y : numpy.ndarray (columns,), (rows,)
+        Values, evenly spaced, stiffnesses on a logarithmic axis [units of the fields].
+
+    Raises
+    ------
+    ValueError
+        If the fields are not two single numbers of this design.
+    """
+    if x_field == y_field:
+        raise ValueError(f"both fields are {x_field}: give two")
+    searched = searched_ranges(design, (x_field, y_field), ranges)
+    return _axis(x_field, searched[x_field], points[0]), _axis(y_field, searched[y_field], points[1])
 
 
 def _axis(field: str, ends: tuple[float, float], count: int) -> RealArray:

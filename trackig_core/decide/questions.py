@@ -239,6 +239,27 @@ def digest(result: Result) -> str:
     return found.hexdigest()
 
 
+def arguments(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments that plain values stand for.
+
+    Parameters
+    ----------
+    settings : dict
+        Plain values by name, as for :class:`Question`.
+
+    Returns
+    -------
+    dict
+        Arguments of the function that answers.
+
+    Raises
+    ------
+    ValueError
+        If a tolerance is of no known kind.
+    """
+    return {name: _MADE.get(name, _same)(value) for name, value in settings.items()}
+
+
 def _check_plain(value: Any, name: str) -> None:
     """Raise a ValueError if a setting is not made of numbers, texts, lists and dicts, as files are."""
     if isinstance(value, Mapping):

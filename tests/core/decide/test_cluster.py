@@ -181,7 +181,7 @@ def test_a_job_that_breaks_off_leaves_no_half_part(tmp_path, monkeypatch):
     monkeypatch.setattr(pd.DataFrame, "to_parquet", lambda _, path: torn(path))
     with pytest.raises(OSError, match="disk full"):
         run_job(grid, tmp_path)
-    assert [each.name for each in tmp_path.iterdir()] == ["job.json"]
+    assert [each.name for each in tmp_path.iterdir()] == ["_job.json"]
 
 
 def test_a_folder_of_another_job_is_refused(tmp_path):
