@@ -7,6 +7,9 @@ Every band quantity in the package uses the arrays below, so that a band
 means the same everywhere.
 """
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -49,3 +52,49 @@ def decibels(ratio: ArrayLike) -> RealArray:
         10 log10(ratio) [dB], of the same shape.
     """
     return 10 * np.log10(ratio)
+
+
+_NOMINAL = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
+"""Nominal mid-band frequencies of one decade (10,) [Hz]; IEC 61260-1, annex E."""
+
+
+@dataclass(frozen=True)
+class Bands:
+    """A row of neighbouring bands, base ten (IEC 61260-1).
+
+    Attributes
+    ----------
+    first, last : int
+        Numbers n of the first and the last band, whose exact mid-band frequencies are 10**(n/10) Hz.
+    tenths : int
+        Width of a band in tenths of a decade: 1 for one-third octaves, 3 for octaves.
+    """
+
+    first: int
+    last: int
+    tenths: int = 1
+
+    @property
+    def numbers(self) -> range:
+        """Numbers n of the bands."""
+        return range(self.first, self.last + 1, self.tenths)
+
+    @cached_property
+    def centres(self) -> RealArray:
+        """Exact mid-band frequencies (bands,) [Hz]."""
+        return 10.0 ** (np.array(self.numbers) / 10)
+
+    @cached_property
+    def edges(self) -> RealArray:
+        """Edges between neighbouring bands (bands + 1,) [Hz]."""
+        numbers = np.append(self.numbers, self.numbers[-1] + self.tenths)
+        return 10.0 ** ((numbers - self.tenths / 2) / 10)
+
+    @cached_property
+    def labels(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text (bands,) [Hz]."""
+        return tuple(f"{_NOMINAL[n % 10] * 10.0 ** (n // 10):g}" for n in self.numbers)
+
+
+ONE_THIRD_OCTAVES = Bands(7, 27)
+"""The paper's bands: one-third octaves from 5 Hz to 500 Hz."""
