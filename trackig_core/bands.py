@@ -75,6 +75,11 @@ class Bands:
     tenths: int = 1
 
     @property
+    def words(self) -> str:
+        """What a band is, in words."""
+        return "One-third-octave" if self.tenths == 1 else "Octave"
+
+    @property
     def numbers(self) -> range:
         """Numbers n of the bands."""
         return range(self.first, self.last + 1, self.tenths)
@@ -98,3 +103,39 @@ class Bands:
 
 ONE_THIRD_OCTAVES = Bands(7, 27)
 """The paper's bands: one-third octaves from 5 Hz to 500 Hz."""
+
+BANDS = {
+    "one-third-octave": ONE_THIRD_OCTAVES,
+    "octave": Bands(9, 24, 3),
+    "wide one-third-octave": Bands(0, 30),
+    "wide octave": Bands(0, 30, 3),
+}
+"""Bands that may be chosen: those of the paper, octaves within them (8 Hz to 250 Hz), and both kinds from
+1 Hz to 1 kHz, where the model says less: below 5 Hz a real wheel follows its suspension, and above 500 Hz the
+rail shears and three elements a bay are few."""
+
+WIDEST = Bands(-1, 31)
+"""One-third octaves whose edges are those of all bands that may be chosen."""
+
+
+def chosen_bands(name: str) -> Bands:
+    """Return the bands of a name.
+
+    Parameters
+    ----------
+    name : str
+        A key of :data:`BANDS`.
+
+    Returns
+    -------
+    Bands
+        The bands.
+
+    Raises
+    ------
+    ValueError
+        If there are none of that name.
+    """
+    if name not in BANDS:
+        raise ValueError(f"bands = {name!r}: give {' or '.join(map(repr, BANDS))}")
+    return BANDS[name]
