@@ -29,6 +29,12 @@ from trackig_core.analysis.statics import (
     zimmermann_deflection,
 )
 from trackig_core.analysis.stiff_reference import StiffReferences, stiff_references
+from trackig_core.analysis.track_response import (
+    TrackResponse,
+    point_receptance,
+    summed_decay_rate,
+    track_response,
+)
 from trackig_core.analysis.verification import Verification, verify
 from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
 from trackig_core.frequency_domain.floquet_waves import receptance, track_decay_rate
@@ -53,6 +59,7 @@ __all__ = [
     "StaticResponse",
     "SteadyShape",
     "StiffReferences",
+    "TrackResponse",
     "Verification",
     "compare_with_beam",
     "cut_on",
@@ -70,15 +77,18 @@ __all__ = [
     "lumped_spectrum",
     "measured_slopes",
     "peer_receptances",
+    "point_receptance",
     "receptance",
     "single_degree_gain",
     "single_degree_insertion_loss",
     "static_response",
     "steady_shape",
     "stiff_references",
+    "summed_decay_rate",
     "time_step_errors",
     "track_decay_rate",
     "track_model",
+    "track_response",
     "verify",
     "with_loss_factor",
     "zimmermann_deflection",

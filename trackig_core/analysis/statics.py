@@ -18,7 +18,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from trackig_core.arrays import ComplexArray, IntArray, RealArray
+from trackig_core.arrays import IntArray, RealArray
+from trackig_core.frequency_domain.floquet_waves import Waves
+from trackig_core.frequency_domain.point_force import RailWaves
 from trackig_core.frequency_domain.static_lattice import (
     ELEMENTS_PER_BAY,
     bending_stiffness,
@@ -36,9 +38,6 @@ LONGEST_WHEELBASE = 100.0
 
 DIED_AWAY = 1e-9
 """Part of the deflection under the wheel at which the line along the track ends [-]."""
-
-_FOURTH_DIFFERENCE = (1.0, -4.0, 6.0, -4.0, 1.0)
-"""Weights of the neighbours by which a rail element is bent [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,15 +148,15 @@ def static_response(
     pad, boot = static_stiffnesses(design)
     support = float(support_stiffness(pad, boot))
     bending = float(bending_stiffness(design.rail.bending_stiffness, design.fastener_spacing))
-    rail = _Line(support / bending)
+    rail = _Line(design, support / bending)
     offsets = (0,) if apart is None else (0, apart)
     first, last = -rail.reach, offsets[-1] + wheel_element + rail.reach
     elements = np.arange(first * ELEMENTS_PER_BAY, ELEMENTS_PER_BAY * (last + 1))
     around = np.arange(
         -ELEMENTS_PER_BAY, offsets[-1] + 2 * ELEMENTS_PER_BAY
     )  # the wheels, wherever they stand
-    line = load / bending * rail.sunk(wheel_element, offsets, elements)
-    worst = max(rail.sunk(start, offsets, around).max() for start in range(ELEMENTS_PER_BAY))
+    line = load / bending * rail.deflection(wheel_element, offsets, elements)
+    worst = max(rail.deflection(start, offsets, around).max() for start in range(ELEMENTS_PER_BAY))
     seats = support * line[::ELEMENTS_PER_BAY]
     moment = np.zeros_like(line)
     moment[1:-1] = -bending * dx * np.diff(line, 2)
@@ -240,59 +239,17 @@ def _elements_apart(wheelbase: float, dx: float) -> int:
 
 
 class _Line:
-    """Deflection of the rail under unit loads, EI/dx^3 being one, wherever they stand in a bay.
+    """Deflection of the rail under unit loads, EI/dx^3 being one, wherever they stand."""
 
-    Left of the loaded bay and right of it the line is made of the two shapes that die away. What joins them
-    are the equations of the elements around the bay: as many as there are unknowns.
-    """
+    def __init__(self, design: TrackDesign, stiffness: float) -> None:
+        multipliers, amplitudes = static_waves([stiffness])
+        at_rest, support = np.zeros(1), np.array([stiffness], dtype=complex)
+        self._waves = RailWaves.of(
+            design, Waves(at_rest, at_rest, multipliers, amplitudes, support, None), ELEMENTS_PER_BAY
+        )
+        self.reach = 2 + math.ceil(math.log(DIED_AWAY) / math.log(np.abs(multipliers).max()))
 
-    def __init__(self, stiffness: float) -> None:
-        self._multipliers, _ = static_waves(stiffness)
-        self._shapes = self._within_a_bay()
-        self.reach = 2 + math.ceil(math.log(DIED_AWAY) / math.log(np.abs(self._multipliers).max()))
-        self._left, self._inside, self._right = self._joined(stiffness)
-
-    def _within_a_bay(self) -> ComplexArray:
-        """Return both shapes in the bay that they begin with 1 over its first support (elements, 2)."""
-        shapes = np.ones((ELEMENTS_PER_BAY, 2), dtype=complex)
-        for wave, m in enumerate(self._multipliers):
-            # the unloaded elements: u[-1] - 4 u[0] + 6 u[1] - 4 u[2] + u[3] = 0, and one further
-            matrix = np.array([[6, 1 / m - 4], [m - 4, 6]])
-            shapes[1:, wave] = np.linalg.solve(matrix, [4 - m, 4 * m - 1])
-        return shapes
-
-    def _waves(self, away: IntArray) -> ComplexArray:
-        """Return both shapes at elements counted from where they begin, outwards (elements, 2)."""
-        bay, within = np.divmod(away, ELEMENTS_PER_BAY)
-        return self._shapes[within] * self._multipliers ** bay[:, None]
-
-    def _joined(self, stiffness: float) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
-        """Return the unknowns for a unit load on each element of the bay, (2, 3) each."""
-        local = np.zeros((10, 6), dtype=complex)  # elements -3 to 6: two shapes, elements 1 and 2, two shapes
-        local[:4, :2] = self._waves(np.arange(3, -1, -1))
-        local[4, 2] = local[5, 3] = 1.0
-        local[6:, 4:] = self._waves(np.arange(4))
-        equations = np.zeros((6, 6), dtype=complex)
-        for at, weight in enumerate(_FOURTH_DIFFERENCE):
-            equations += weight * local[at : at + 6]
-        for support in (1, 4):  # equations of elements -1 to 4
-            equations[support] += stiffness * local[2 + support]
-        loads = np.zeros((6, ELEMENTS_PER_BAY))
-        loads[np.arange(1, 4), np.arange(ELEMENTS_PER_BAY)] = 1.0
-        unknown: ComplexArray = np.linalg.solve(equations, loads.astype(complex))
-        return unknown[:2], unknown[2:4], unknown[4:]
-
-    def sunk(self, first: int, offsets: tuple[int, ...], elements: IntArray) -> RealArray:
-        """Return the deflection of ascending elements under wheels that begin at one (elements,) [-]."""
-        return np.sum([self.deflection(first + offset, elements) for offset in offsets], axis=0)
-
-    def deflection(self, loaded: int, elements: IntArray) -> RealArray:
-        """Return the deflection of ascending elements under a unit load on another (elements,) [-]."""
-        bay, within = divmod(loaded, ELEMENTS_PER_BAY)
-        away = elements - bay * ELEMENTS_PER_BAY
-        left, right = away <= 0, away >= ELEMENTS_PER_BAY
-        line = np.empty(away.shape)
-        line[left] = (self._waves(-away[left]) @ self._left[:, within]).real
-        line[~left & ~right] = self._inside[:, within].real
-        line[right] = (self._waves(away[right] - ELEMENTS_PER_BAY) @ self._right[:, within]).real
-        return line
+    def deflection(self, first: int, offsets: tuple[int, ...], elements: IntArray) -> RealArray:
+        """Return the deflection of elements under wheels at offsets from an element (elements,) [-]."""
+        wheels = [self._waves.receptance(elements, first + offset) for offset in offsets]
+        return np.sum(wheels, axis=0)[:, 0].real

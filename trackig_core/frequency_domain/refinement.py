@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from trackig_core.arrays import BoolArray, RealArray
-from trackig_core.bands import BAND_EDGES, LINE_FRACTION
+from trackig_core.bands import LINE_FRACTION, ONE_THIRD_OCTAVES, Bands
 from trackig_core.frequency_domain import batch_kernels
 from trackig_core.frequency_domain.batch_kernels import (
     MOST_FREQUENCIES,
@@ -130,13 +130,15 @@ def _grounded_loss(model: TrackModel) -> tuple[str, object]:
     return field, getattr(model.design, field)
 
 
-def band_frequencies(lowest: float) -> RealArray:
+def band_frequencies(lowest: float, bands: Bands = ONE_THIRD_OCTAVES) -> RealArray:
     """Return frequencies from which a spectrum over all bands may be refined.
 
     Parameters
     ----------
     lowest : float
         Loaded-track frequency, at a tenth of which the line is anchored [Hz].
+    bands : Bands
+        One-third octaves that the spectrum has to cover.
 
     Returns
     -------
@@ -144,12 +146,18 @@ def band_frequencies(lowest: float) -> RealArray:
         Frequencies [Hz], ascending, among them every band edge and the anchor if it lies below the bands.
     """
     anchor = LINE_FRACTION * lowest
-    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
-    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
+    edges = bands.edges
+    between = np.geomspace(edges[0], edges[-1], 12 * (len(edges) - 1) + 1)
+    below = [anchor, *np.geomspace(anchor, edges[0], 12)[1:-1]] if anchor < edges[0] else []
     return np.concatenate([below, between])
 
 
-def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DEFAULT_STEP) -> ForceSpectrum:
+def banded_spectrum(
+    design: Track,
+    lattice: Lattice = INFINITE,
+    step: float = DEFAULT_STEP,
+    bands: Bands = ONE_THIRD_OCTAVES,
+) -> ForceSpectrum:
     """Return the spectrum over all one-third-octave bands, and down to where the line is anchored.
 
     Parameters
@@ -160,6 +168,8 @@ def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DE
         What to solve.
     step : float
         Height of the step [m].
+    bands : Bands
+        One-third octaves to cover.
 
     Returns
     -------
@@ -173,7 +183,7 @@ def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DE
     """
     model = track_model(design)
     require_damping(model)
-    spectrum = resolved_spectrum(model, band_frequencies(loaded_track(model)), step, lattice)
+    spectrum = resolved_spectrum(model, band_frequencies(loaded_track(model), bands), step, lattice)
     if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")
