@@ -1,5 +1,7 @@
 """Probability of compliance against brute force; Sobol indices against a function with a closed form."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -106,6 +108,22 @@ def test_a_deflection_limit_counts():
     assert half.probability == pytest.approx(
         0.5, abs=0.01
     )  # it sinks less with the stiffer half of the boots
+
+
+@pytest.mark.slow
+def test_ten_thousand_samples_cost_less_than_five_paper_runs(specification):
+    tolerances = dict.fromkeys(("pad_stiffness", "boot_stiffness", "boot_loss_factor", "block_mass"), 0.1)
+    calls = {
+        "paper": lambda: tig.solve(BLOCK, "paper"),
+        "samples": lambda: tolerance(BLOCK, specification, tolerances, samples=10_000),
+    }
+    took = {name: [] for name in calls}
+    for _ in range(3):
+        for name, call in calls.items():
+            begin = time.perf_counter()
+            call()
+            took[name].append(time.perf_counter() - begin)
+    assert min(took["samples"]) < 5 * min(took["paper"])
 
 
 def test_specimens_are_taken_whole(specification):
