@@ -132,7 +132,7 @@ def rail_receptance(
     """
     model = track_model(design)
     track = waves(model, frequency, lattice)
-    shapes = _bay_shapes(model.design, track, lattice.elements_per_bay)
+    shapes = bay_shapes(model.design, track, lattice.elements_per_bay)
     away = np.abs(np.asarray(element))
     if lattice.bays is None:
         shape = _wave(track, shapes, away)
@@ -151,7 +151,7 @@ def _wave(track: Waves, shapes: ComplexArray, element: NDArray[np.int_]) -> Comp
     return shapes[within] * track.multipliers ** bay[..., None, None]
 
 
-def _bay_shapes(design: TrackDesign, track: Waves, per_bay: int) -> ComplexArray:
+def bay_shapes(design: TrackDesign, track: Waves, per_bay: int) -> ComplexArray:
     """Return both waves within one bay, 1 over the support that it begins with (per_bay, 2, frequencies)."""
     dx = design.fastener_spacing / per_bay
     inertia = design.rail.mass_per_metre * dx**4 / design.rail.bending_stiffness * track.frequency_squared

@@ -5,11 +5,12 @@ solved by :mod:`trackig_core.frequency_domain.floquet_waves`.
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 
 from trackig_core.arrays import BoolArray, RealArray
-from trackig_core.bands import BAND_EDGES, LINE_FRACTION
+from trackig_core.bands import LINE_FRACTION, ONE_THIRD_OCTAVES, Bands
 from trackig_core.frequency_domain import batch_kernels
 from trackig_core.frequency_domain.batch_kernels import (
     MOST_FREQUENCIES,
@@ -25,9 +26,6 @@ from trackig_core.frequency_domain.track_model import Track, TrackModel, track_m
 from trackig_core.levels.insertion_gain import insertion_gain
 from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import DEFAULT_STEP, DesignError
-
-_OVER_BANDS = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
-"""Frequencies from which a spectrum over all bands is refined [Hz], among them every band edge."""
 
 
 def resolved_spectrum(
@@ -52,7 +50,7 @@ def resolved_spectrum(
         Energy at the given and the added frequencies.
     """
     model = track_model(design)
-    if _is_compiled(lattice):
+    if model.causal and _is_compiled(lattice):
         axis, energy, coherent_energy = batch_kernels.resolve_row(
             model.row, *_stepping(model, lattice), frequency
         )
@@ -139,7 +137,7 @@ def require_damping(design: Track) -> None:
         If the spring that stands on the ground has no loss.
     """
     model = track_model(design)
-    if not model.springs[-1].strengths:
+    if model.springs[-1].lossless:
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more than 0: without loss the exact spectrum has no bound")
 
@@ -150,13 +148,15 @@ def _grounded_loss(model: TrackModel) -> tuple[str, object]:
     return field, getattr(model.design, field)
 
 
-def band_frequencies(lowest: float) -> RealArray:
+def band_frequencies(lowest: float, bands: Bands = ONE_THIRD_OCTAVES) -> RealArray:
     """Return frequencies from which a spectrum over all bands may be refined.
 
     Parameters
     ----------
     lowest : float
         Loaded-track frequency, at a tenth of which the line is anchored [Hz].
+    bands : Bands
+        One-third octaves that the spectrum has to cover.
 
     Returns
     -------
@@ -164,12 +164,22 @@ def band_frequencies(lowest: float) -> RealArray:
         Frequencies [Hz], ascending, among them every band edge and the anchor if it lies below the bands.
     """
     anchor = LINE_FRACTION * lowest
-    if anchor >= BAND_EDGES[0]:
-        return _OVER_BANDS
-    return np.concatenate([np.geomspace(anchor, BAND_EDGES[0], 12)[:-1], _OVER_BANDS])
+    low, over = bands.edges[0], _over(bands)
+    return over if anchor >= low else np.concatenate([np.geomspace(anchor, low, 12)[:-1], over])
 
 
-def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DEFAULT_STEP) -> ForceSpectrum:
+@lru_cache(maxsize=8)
+def _over(bands: Bands) -> RealArray:
+    """Return frequencies from which a spectrum over bands is refined [Hz], among them every band edge."""
+    return np.geomspace(bands.edges[0], bands.edges[-1], 12 * (len(bands.edges) - 1) + 1)
+
+
+def banded_spectrum(
+    design: Track,
+    lattice: Lattice = INFINITE,
+    step: float = DEFAULT_STEP,
+    bands: Bands = ONE_THIRD_OCTAVES,
+) -> ForceSpectrum:
     """Return the spectrum over all one-third-octave bands, and down to where the line is anchored.
 
     Parameters
@@ -180,6 +190,8 @@ def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DE
         What to solve.
     step : float
         Height of the step [m].
+    bands : Bands
+        One-third octaves to cover.
 
     Returns
     -------
@@ -193,7 +205,7 @@ def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DE
     """
     model = track_model(design)
     require_damping(model)
-    spectrum = resolved_spectrum(model, band_frequencies(loaded_track(model)), step, lattice)
+    spectrum = resolved_spectrum(model, band_frequencies(loaded_track(model), bands), step, lattice)
     if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import RealArray
-from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
+from trackig_core.bands import BAND_EDGES, LINE_FRACTION, ONE_THIRD_OCTAVES, Bands, decibels
 from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import TrackDesign
 
@@ -27,8 +27,9 @@ def insertion_gain(
     loaded_track: float,
     reference: str = "line",
     summation: str = "energy",
+    bands: Bands = ONE_THIRD_OCTAVES,
 ) -> InsertionGain:
-    """Return the insertion gain of a track per one-third-octave band.
+    """Return the insertion gain of a track per band.
 
     Parameters
     ----------
@@ -44,6 +45,8 @@ def insertion_gain(
         inertia force of the wheel alone.
     summation : str
         ``"energy"``: squared support forces are summed. ``"coherent"``: forces are summed.
+    bands : Bands
+        Bands, which the spectrum covers; by default one-third octaves from 5 Hz to 500 Hz.
 
     Returns
     -------
@@ -67,14 +70,15 @@ def insertion_gain(
     else:
         # E = (m_w w^2 step)^2 / w^2
         height = (2 * np.pi * design.wheel_mass * spectrum.step) ** 2
-    band_energy = _over_bands(density)
-    reference_energy = height * np.diff(BAND_EDGES**3) / 3
+    band_energy = _over_bands(density, bands.edges)
+    reference_energy = height * np.diff(bands.edges**3) / 3
     return InsertionGain(
         levels=decibels(band_energy / reference_energy),
         band_energy=band_energy,
         reference_energy=reference_energy,
         reference=reference,
         summation=summation,
+        bands=bands,
     )
 
 
@@ -89,8 +93,8 @@ def check_choice(name: str, value: object, choices: Collection[str]) -> None:
         raise ValueError(f"{name} = {value!r}: give {' or '.join(repr(choice) for choice in choices)}")
 
 
-def integrate_bands(frequency: RealArray, density: RealArray) -> RealArray:
-    """Integrate a spectral density over the one-third-octave bands.
+def integrate_bands(frequency: RealArray, density: RealArray, edges: RealArray = BAND_EDGES) -> RealArray:
+    """Integrate a spectral density over neighbouring bands.
 
     The density is joined by a cubic spline, which is integrated to the exact band edges: a resonance
     three points wide is then still within 0.001 dB, where weighted bins miss by ten times as much.
@@ -98,24 +102,26 @@ def integrate_bands(frequency: RealArray, density: RealArray) -> RealArray:
     Parameters
     ----------
     frequency : numpy.ndarray (frequencies,)
-        Frequencies [Hz], ascending, evenly spaced or not, covering the bands from 5 Hz to 500 Hz.
+        Frequencies [Hz], ascending, evenly spaced or not, covering the bands.
     density : numpy.ndarray (frequencies,)
         Density at those frequencies [unit/Hz].
+    edges : numpy.ndarray (bands + 1,)
+        Edges of the bands [Hz]; by default those of the one-third octaves from 5 Hz to 500 Hz.
 
     Returns
     -------
-    numpy.ndarray (21,)
+    numpy.ndarray (bands,)
         Integral over each band [unit].
     """
-    return _over_bands(CubicSpline(frequency, density))
+    return _over_bands(CubicSpline(frequency, density), edges)
 
 
-def _over_bands(spline: CubicSpline) -> RealArray:
-    inner = (spline.x > BAND_EDGES[0]) & (spline.x < BAND_EDGES[-1])
-    nodes = np.sort(np.concatenate([spline.x[inner], BAND_EDGES]))
+def _over_bands(spline: CubicSpline, edges: RealArray) -> RealArray:
+    inner = (spline.x > edges[0]) & (spline.x < edges[-1])
+    nodes = np.sort(np.concatenate([spline.x[inner], edges]))
     at_nodes, between = spline(nodes), spline((nodes[:-1] + nodes[1:]) / 2)
     # Simpson's rule is exact for cubics. Panels are summed band by band: the difference of one running sum
     # would lose bands that lie 160 dB below others.
     panels = np.diff(nodes) * (at_nodes[:-1] + 4 * between + at_nodes[1:]) / 6
-    energy: RealArray = np.add.reduceat(panels, np.searchsorted(nodes, BAND_EDGES[:-1]))
+    energy: RealArray = np.add.reduceat(panels, np.searchsorted(nodes, edges[:-1]))
     return energy

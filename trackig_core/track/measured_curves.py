@@ -24,7 +24,7 @@ MOST_POINTS = 1000
 COLUMNS = {
     "frequency": (0.1, 1e5, "Hz"),
     "stiffness": (1e5, 1e13, "N/m"),
-    "loss factor": (1e-4, 1.0, ""),
+    "loss factor": (1e-4, 2.0, ""),
 }
 """Lowest and highest value, and unit, of each column."""
 
