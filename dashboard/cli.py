@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 import trackig_core as tig
-from dashboard import formats
+from dashboard import cli_decide, formats
 from dashboard.session.pins import base_design, shown_designs
 from dashboard.session.results import SolutionSummary
 from trackig_core.levels import band_tables
@@ -39,6 +39,7 @@ USER_ERRORS = (
     tig.DesignError,
     tig.RunTooLargeError,
     tig.StudyError,
+    cli_decide.DecideError,
     FloatingPointError,
     OSError,
 )
@@ -101,6 +102,7 @@ def _parser():
     _add_solve(commands)
     _add_check(commands)
     _add_report(commands)
+    cli_decide.add_commands(commands, cli_decide.Shell(_add, _open_study, _refuse_to_lose, _write))
     _add_serve(commands)
     return parser
 
@@ -292,7 +294,8 @@ def _check(options):
         solution = tig.solve(
             pinned.design, options.fidelity, reference=view.reference, summation=view.summation
         )
-        verdict = opened.specification.check(solution.insertion_gain)
+        deflection = tig.analysis.limited_deflection(opened.specification, pinned.design)
+        verdict = opened.specification.check(solution.insertion_gain, deflection)
         sys.stdout.write(f"{pinned.name}: {verdict}\n")
         complies &= verdict.complies
     return 0 if complies else FAILED

@@ -21,6 +21,12 @@ from trackig_core.analysis.lumped import (
 )
 from trackig_core.analysis.motion import Motion, film
 from trackig_core.analysis.rolland import PeerReceptance, peer_receptances
+from trackig_core.analysis.statics import (
+    StaticResponse,
+    limited_deflection,
+    static_response,
+    zimmermann_deflection,
+)
 from trackig_core.analysis.stiff_reference import StiffReferences, stiff_references
 from trackig_core.analysis.verification import Verification, verify
 from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
@@ -42,6 +48,7 @@ __all__ = [
     "MeasuredSlope",
     "Motion",
     "PeerReceptance",
+    "StaticResponse",
     "SteadyShape",
     "StiffReferences",
     "Verification",
@@ -55,16 +62,19 @@ __all__ = [
     "frequency_sweep",
     "gain_asymptotes",
     "gain_by_loss_factor",
+    "limited_deflection",
     "lumped_frequencies",
     "lumped_insertion_gain",
     "lumped_spectrum",
     "measured_slopes",
     "peer_receptances",
     "receptance",
+    "static_response",
     "steady_shape",
     "stiff_references",
     "time_step_errors",
     "track_decay_rate",
     "verify",
     "with_loss_factor",
+    "zimmermann_deflection",
 ]

@@ -24,8 +24,8 @@ from trackig_core.frequency_domain import natural_frequencies as modes
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.track.fields import DESIGN_FIELDS, DesignError
 
-FIELDS = tuple(each.name for each in DESIGN_FIELDS)
-"""Fields of a design that can be varied: all that are numbers."""
+FIELDS = tuple(each.name for each in DESIGN_FIELDS if "static" not in each.name)
+"""Fields of a design that can be varied: all that are numbers and move its frequencies."""
 
 NOTABLE = 0.05
 """Relative difference of frequencies below which lumped model and beam are said to agree [-]."""

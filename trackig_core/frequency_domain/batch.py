@@ -19,6 +19,11 @@ from trackig_core.arrays import AnyArray, BoolArray, RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS, LINE_FRACTION, decibels
 from trackig_core.frequency_domain import batch_kernels as kernels
 from trackig_core.frequency_domain.kernel_rows import law_row
+from trackig_core.frequency_domain.static_lattice import (
+    bending_stiffness,
+    point_compliance,
+    support_stiffness,
+)
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice
 from trackig_core.results import SolveCancelled
 from trackig_core.track.damping_table import interpolated_terms
@@ -29,7 +34,8 @@ from trackig_core.track.design import (
     Rail,
     TrackDesign,
 )
-from trackig_core.track.fields import check_number
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, check_number
+from trackig_core.track.static_stiffness import stand_in
 from trackig_core.track.viscoelastic_law import NEGLIGIBLE, relaxation
 
 if TYPE_CHECKING:
@@ -76,6 +82,8 @@ class BatchSolution:
         Height of the straight reference line over the exact rigid track: energy sum, coherent sum.
     reference, summation : str
         Definition of :attr:`insertion_gain`.
+    wheel_load : float [N]
+        Static load of the wheel, for :attr:`rail_deflection`.
     """
 
     columns: Columns = field(repr=False)
@@ -86,6 +94,7 @@ class BatchSolution:
     line_ratio: RealArray = field(repr=False)
     reference: str = "line"
     summation: str = "energy"
+    wheel_load: float = DEFAULT_WHEEL_LOAD
 
     @property
     def band_centres(self) -> RealArray:
@@ -127,6 +136,21 @@ class BatchSolution:
             levels -= decibels(self.line_ratio[..., kind, None])
         return levels
 
+    @cached_property
+    def rail_deflection(self) -> RealArray:
+        """Static deflection of the rail under the wheel, over a support (...) [m]."""
+        spacing = self.columns["fastener_spacing"].astype(float)
+        rails = self.columns["rail"]
+        rail = np.array([rail.bending_stiffness for rail in rails.flat]).reshape(rails.shape)
+        support = support_stiffness(_static(self.columns, "pad"), _static(self.columns, "boot"))
+        return self.wheel_load * point_compliance(support, bending_stiffness(rail, spacing))
+
+    @cached_property
+    def deflection_at_least(self) -> BoolArray:
+        """Whether the rail sinks at least so far, a dynamic stiffness standing in for a static one (...)."""
+        pad, boot = (_missing(self.columns[f"{part}_static_stiffness"]) for part in ("pad", "boot"))
+        return pad | (boot & ~_missing(self.columns["boot_stiffness"]))
+
     def design(self, row: Row) -> TrackDesign:
         """Return one of the designs.
 
@@ -143,13 +167,20 @@ class BatchSolution:
         return _design({name: values[row] for name, values in self.columns.items()})
 
     def to_dataframe(self) -> "pandas.DataFrame":
-        """Return a pandas.DataFrame, one row a design: fields [SI], natural frequencies [Hz], bands [dB]."""
+        """Return a table of the designs.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row a design: fields [SI units], natural frequencies [Hz], static deflection [m], bands [dB].
+        """
         import pandas as pd
 
         columns = {name: values.ravel() for name, values in self.columns.items()}
         columns["rail"] = np.array([rail.name for rail in columns["rail"]])
         columns["loaded_track"] = self.loaded_track.ravel()
         columns["coupled_block"] = self.coupled_block.ravel()
+        columns["rail_deflection"] = self.rail_deflection.ravel()
         bands = self.insertion_gain.reshape(-1, len(BAND_LABELS))
         return pd.DataFrame(columns | dict(zip(BAND_LABELS, bands.T, strict=True)))
 
@@ -163,6 +194,7 @@ def solve_many(
     progress: Callable[[float], object] | None = None,
     cancelled: Callable[[], bool] | None = None,
     designs: Sequence[TrackDesign] | None = None,
+    wheel_load: float = DEFAULT_WHEEL_LOAD,
     **arrays: object,
 ) -> BatchSolution:
     """Compute the insertion gain and natural frequencies of many tracks, as ``solve(design, "exact")`` does.
@@ -183,6 +215,8 @@ def solve_many(
         Asked now and then; the run ends when it answers true.
     designs : sequence of TrackDesign, optional
         All designs, by name in place of ``base``.
+    wheel_load : float
+        Static load of the wheel, which sinks the rail by ``rail_deflection`` [N].
     **arrays : array_like
         Values by name of a field of the design [unit of the field]: numbers, rails or measured curves, which
         are broadcast against each other as NumPy does.
@@ -190,7 +224,7 @@ def solve_many(
     Returns
     -------
     BatchSolution
-        Insertion gain (..., 21) [dB] and natural frequencies (...) [Hz].
+        Insertion gain (..., 21) [dB], natural frequencies (...) [Hz] and static deflection (...) [m].
 
     Raises
     ------
@@ -203,6 +237,7 @@ def solve_many(
     """
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
+    wheel_load = check_number("wheel_load", wheel_load)
     if isinstance(base, TrackDesign):
         columns = _varied(base, arrays)
     elif arrays:
@@ -233,6 +268,7 @@ def solve_many(
         columns=columns,
         reference=reference,
         summation=summation,
+        wheel_load=wheel_load,
         **{name: values.reshape(shape + values.shape[1:]) for name, values in rows.items()},
     )
 
@@ -295,8 +331,14 @@ def _varied(base: TrackDesign, arrays: Mapping[str, object]) -> Columns:
         for place, rail in enumerate(rails.flat):
             if not isinstance(rail, Rail):
                 raise _in_row(DesignError("rail", rail, "a Rail, such as RAILS['60']"), place, shape)
-    columns = {name: np.broadcast_to(_column(getattr(base, name)), shape) for name in FIELDS}
-    return columns | given
+    columns = {name: np.broadcast_to(_column(getattr(base, name)), shape) for name in FIELDS} | given
+    if "boot_static_stiffness" not in given:  # it leaves with its boot
+        missing = _missing(columns["boot_stiffness"])
+        if missing.any():
+            static = columns["boot_static_stiffness"].astype(object)
+            static[missing] = None
+            columns["boot_static_stiffness"] = static
+    return columns
 
 
 def _first_row(base: TrackDesign, given: Columns) -> None:
@@ -325,6 +367,23 @@ def _column(values: Any) -> AnyArray:
     if array.dtype != object:
         array = array.astype(object)
     return array
+
+
+def _missing(values: AnyArray) -> BoolArray:
+    """Return where a column has None."""
+    if values.dtype != object:
+        return np.zeros(values.shape, dtype=bool)
+    return np.array([value is None for value in values.flat], dtype=bool).reshape(values.shape)
+
+
+def _static(columns: Columns, part: str) -> RealArray:
+    """Return the static stiffness of pad or boot, infinite where there is none (...) [N/m]."""
+    static, dynamic = columns[f"{part}_static_stiffness"], columns[f"{part}_stiffness"]
+    if static.dtype != object:
+        return static
+    pairs = zip(static.flat, dynamic.flat, strict=True)
+    stiffness = [np.inf if k is None else stand_in(s, k) for s, k in pairs]
+    return np.array(stiffness, dtype=float).reshape(static.shape)
 
 
 def _plain(value: Any) -> Any:

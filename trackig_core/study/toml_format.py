@@ -25,7 +25,7 @@ from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.study.records import PinnedDesign, StudyError, View
 from trackig_core.track.design import TrackDesign
-from trackig_core.track.fields import DESIGN_FIELDS, RAIL_FIELDS, DesignError
+from trackig_core.track.fields import DESIGN_FIELDS, RAIL_FIELDS, STATIC_FIELDS, DesignError
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
 from trackig_core.track.rails import Rail
 
@@ -55,6 +55,9 @@ _DESIGN_KEYS = {each.name: each.key for each in DESIGN_FIELDS}
 
 _RAIL_KEYS = {"name": "name"} | {each.name: each.key for each in RAIL_FIELDS}
 """Key of the name and of each number of a rail."""
+
+_LIMIT_KEYS = {each.name: each.key for each in STATIC_FIELDS}
+"""Key of the limit of rail deflection, and of the load under which it holds."""
 
 _CURVES: dict[str, tuple[str, type[StiffnessCurve] | type[LossFactorCurve]]] = {
     "pad_stiffness": ("pad_stiffness_measured", StiffnessCurve),
@@ -219,12 +222,22 @@ def _table(
         return None
     section = study.section(name)
     points, title = section.need(key), section.take("name", kind.name)
+    limits = _limits(section) if kind is Specification else {}
     section.close()
     try:
-        return kind(points, title)
+        return kind(points, title, **limits)
     except BandTableError as error:
         path = section.path if error.line is None else section.under(key)
         raise StudyError(str(error), path) from None
+
+
+def _limits(section: _Section) -> dict[str, Any]:
+    """Return what a specification says of rail deflection, as arguments of it."""
+    limits = {name: section.take(key) for name, key in _LIMIT_KEYS.items()}
+    if limits["rail_deflection_limit"] is None and limits["wheel_load"] is not None:
+        key = _LIMIT_KEYS["rail_deflection_limit"]
+        raise StudyError(f"give {key} too, or remove it", section.under(_LIMIT_KEYS["wheel_load"]))
+    return {name: value for name, value in limits.items() if value is not None}
 
 
 def _design(section: _Section) -> TrackDesign:
@@ -324,6 +337,9 @@ def _written_table(levels: BandTable, key: str) -> Table:
     table = tomlkit.table()
     table.add("name", levels.name)
     _add_rows(table, key, levels.points, _LEVEL_ROWS)
+    if isinstance(levels, Specification) and levels.rail_deflection_limit is not None:
+        for name, limit in _LIMIT_KEYS.items():
+            table.add(limit, _number(getattr(levels, name)))
     return table
 
 

@@ -55,6 +55,9 @@ class TrackDesign:
         Rail section; the name of one of ``RAILS`` stands for it.
     contact_stiffness : float
         Linearised Hertzian contact stiffness [N/m].
+    pad_static_stiffness, boot_static_stiffness : float or None
+        Static stiffness of a rail pad and of a boot [N/m]; None if it is not stated. Nothing but statics
+        depends on them.
 
     Raises
     ------
@@ -71,6 +74,8 @@ class TrackDesign:
     wheel_mass: float
     rail: Rail = PAPER_RAIL
     contact_stiffness: float = 1.2e9
+    pad_static_stiffness: float | None = None
+    boot_static_stiffness: float | None = None
 
     def __post_init__(self) -> None:
         """Check every value once."""
@@ -85,6 +90,11 @@ class TrackDesign:
         if self.two_stage:
             self._check("block_mass")
             self._check_spring("boot")
+        elif self.boot_static_stiffness is not None:
+            raise DesignError("boot_static_stiffness", self.boot_static_stiffness, "None: there is no boot")
+        for field in ("pad_static_stiffness", "boot_static_stiffness"):
+            if getattr(self, field) is not None:
+                self._check(field)
 
     def _check(self, field: str) -> None:
         object.__setattr__(self, field, check_number(field, getattr(self, field)))
@@ -125,7 +135,7 @@ class TrackDesign:
         Parameters
         ----------
         **changes
-            New values by field name [unit of the field].
+            New values by field name [unit of the field]. A static stiffness leaves with its boot.
 
         Returns
         -------
@@ -143,4 +153,6 @@ class TrackDesign:
                 near = difflib.get_close_matches(field, names, n=1)
                 hint = f"'{near[0]}'" if near else f"one of {', '.join(names)}"
                 raise DesignError(field, value, f"a field that exists: {hint}")
+        if changes.get("boot_stiffness", self.boot_stiffness) is None:
+            changes.setdefault("boot_static_stiffness", None)
         return dataclasses.replace(self, **changes)

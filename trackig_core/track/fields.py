@@ -49,11 +49,37 @@ DESIGN_FIELDS = (
     Field("fastener_spacing", "m", 0.1, 2.0, "fastener_spacing_m"),
     Field("wheel_mass", "kg", 10.0, 1e4, "wheel_mass_kg"),
     Field("contact_stiffness", "N/m", 1e6, 1e14, "contact_stiffness_N_per_m"),
+    Field("pad_static_stiffness", "N/m", 1e5, 1e13, "pad_static_stiffness_N_per_m"),
+    Field("boot_static_stiffness", "N/m", 1e5, 1e13, "boot_static_stiffness_N_per_m"),
 )
 """Numbers of a design."""
 
-RANGES = {each.name: (each.low, each.high, each.unit) for each in (*RAIL_FIELDS, *DESIGN_FIELDS)}
+STATIC_FIELDS = (
+    Field("wheel_load", "N", 1e3, 1e6, "wheel_load_N"),
+    Field("rail_deflection_limit", "m", 1e-6, 0.1, "rail_deflection_max_m"),
+)
+"""Numbers of a standing wheel, and of what it may sink."""
+
+DEFAULT_WHEEL_LOAD = 85e3
+"""Static load of a wheel where none is given [N]: half an axle load of 17 t."""
+
+RANGES = {
+    each.name: (each.low, each.high, each.unit) for each in (*RAIL_FIELDS, *DESIGN_FIELDS, *STATIC_FIELDS)
+}
 """Lowest and highest value, and unit, of each number by name."""
+
+SLIDER_RANGES = {
+    "pad_stiffness": (10e6, 2000e6),
+    "pad_loss_factor": (0.01, 0.5),
+    "block_mass": (10.0, 500.0),
+    "boot_stiffness": (2e6, 200e6),
+    "boot_loss_factor": (0.01, 0.5),
+    "fastener_spacing": (0.2, 1.0),
+    "wheel_mass": (200.0, 1500.0),
+    "contact_stiffness": (200e6, 5000e6),
+}
+"""Lowest and highest value of each number that a designer chooses from [SI]: what sliders offer, and what is
+searched unless other ranges are given."""
 
 
 class DesignError(ValueError):

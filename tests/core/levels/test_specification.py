@@ -246,3 +246,63 @@ def test_a_solution_is_held_against_a_specification():
     verdict = tight.check(solution.insertion_gain)
     assert verdict.complies
     assert (verdict.worst_margin, verdict.worst_band) == (0.0, "63")
+
+
+SOFT = tig.Specification([(63, 0.0)], rail_deflection_limit=2.5e-3, wheel_load=100e3)
+
+
+@pytest.mark.parametrize(
+    ("level", "deflection", "complies", "words"),
+    [
+        (
+            -1.0,
+            2.0e-3,
+            True,
+            "complies, least margin 1.0 dB at 63 Hz; rail deflection 0.5 mm within its limit",
+        ),
+        (
+            -1.0,
+            2.5e-3,
+            True,
+            "complies, least margin 1.0 dB at 63 Hz; rail deflection 0.0 mm within its limit",
+        ),
+        (
+            -1.0,
+            2.51e-3,
+            False,
+            "fails, least margin 1.0 dB at 63 Hz; rail deflection 0.01 mm beyond its limit",
+        ),
+        (1.0, 2.0e-3, False, "fails by 1.0 dB at 63 Hz (1 band); rail deflection 0.5 mm within its limit"),
+        (1.0, 3.0e-3, False, "fails by 1.0 dB at 63 Hz (1 band); rail deflection 0.5 mm beyond its limit"),
+    ],
+)
+def test_a_limit_of_rail_deflection_is_part_of_the_verdict(level, deflection, complies, words):
+    verdict = SOFT.check(np.full(21, level), deflection)
+    assert (verdict.complies, str(verdict)) == (complies, words)
+    assert verdict.deflection_margin == pytest.approx(2.5e-3 - deflection, abs=1e-12)
+
+
+def test_a_limited_deflection_has_to_be_given():
+    for missing in (None, NAN):
+        with pytest.raises(ValueError, match=r"rail_deflection = .*: the specification limits it.*100 kN"):
+            SOFT.check(np.zeros(21), missing)
+    assert LIMITS.check(levels(), 1.0).deflection_margin is None
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"rail_deflection_limit": 2.5}, "rail_deflection_limit = 2.5: give a number from 1e-06 to 0.1 m"),
+        ({"rail_deflection_limit": NAN}, "rail_deflection_limit = nan"),
+        ({"rail_deflection_limit": 1e-3, "wheel_load": 85}, "wheel_load = 85: give a number from 1000 to"),
+        ({"wheel_load": "85 kN"}, "wheel_load = '85 kN'"),
+    ],
+)
+def test_wrong_limits_of_rail_deflection_are_refused(values, words):
+    with pytest.raises(tig.SpecificationError) as caught:
+        tig.Specification([(63, 0.0)], **values)
+    assert str(caught.value).startswith(words)
+
+
+def test_a_load_without_a_limit_says_nothing():
+    assert tig.Specification([(63, 0.0)], wheel_load=100e3) == tig.Specification([(63, 0.0)])
