@@ -18,7 +18,7 @@ from dashboard.compute.document import NextTick
 from dashboard.compute.inquiries import WAITING, Inquiry, InquiryRunner, question_of
 from dashboard.fields import FIELDS
 from dashboard.figures.decide import ChangeFigure, CloudFigure, MapFigure, PercentileFigure, TornadoFigure
-from dashboard.session.inputs import values_of
+from dashboard.session.inputs import design_of, values_of
 from dashboard.session.pins import PinError
 from dashboard.views.components import PAPER, bokeh_pane, caption
 from dashboard.views.tab import Tab
@@ -618,7 +618,9 @@ class Decide(Tab):
 
     def _pin(self, design):
         try:
-            pin = self._pins.add(design, "Found", self._inputs.preset)
+            # as the sliders show it: a study of it opens as it was saved
+            shown = design_of(self._inputs.to_values() | values_of(design))
+            pin = self._pins.add(shown, "Found", self._inputs.preset)
         except PinError as problem:
             notify("warning", str(problem))
         else:
