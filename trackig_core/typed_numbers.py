@@ -67,6 +67,10 @@ class Unit:
     quantity: str
     factor: Fraction
 
+    def convert(self, value: float, wanted: "Unit") -> float:
+        """Return a number of this unit in another one of the same quantity, exactly rounded."""
+        return value if self == wanted else float(Fraction(str(value)) * self.factor / wanted.factor)
+
 
 def _power(exponent: int) -> Fraction:
     return Fraction(10) ** exponent
@@ -153,8 +157,8 @@ def read_number(text: str, unit: str = "", *, decimal: str | None = None) -> flo
     unit : str
         Unit of a number without one, and of what is returned; empty for a number without unit.
     decimal : str, optional
-        ``","``: a comma is decimal whatever follows; by default ``1,200``, which may be 1200 or 1.2, is
-        refused.
+        What ``1,200`` means, where the reader knows it: ``","`` makes it 1.2 and ``"."`` 1200; by default
+        it is refused.
 
     Returns
     -------
@@ -211,6 +215,15 @@ def _known_unit(written: str, text: str) -> Unit:
     return unit
 
 
+def decimal_mark(text: str) -> str | None:
+    """Return the decimal mark that a number certainly has, ``","`` or ``"."``; None if it shows none."""
+    found = _NUMBER.fullmatch(_plain(text))
+    body = found["body"].strip() if found is not None else ""
+    if not re.search("[.,][0-9]", body) or _AMBIGUOUS.fullmatch(body):
+        return None
+    return "," if body.rfind(",") > body.rfind(".") else "."
+
+
 def _split(text: str, decimal: str | None) -> tuple[Fraction, str]:
     """Return the exact value of a text's number, and the unit behind it as it is written."""
     # 1k25 stands on scales of frequency for 1.25 kHz
@@ -228,10 +241,10 @@ def _split(text: str, decimal: str | None) -> tuple[Fraction, str]:
 def _digits(body: str, text: str, decimal: str | None) -> str:
     """Return digits as Python writes them, or raise a NumberError."""
     if _AMBIGUOUS.fullmatch(body):
-        if decimal != ",":
-            choices = f"{body.replace(',', '')} or {body.replace(',', '.')}"
-            raise NumberError(f"{brief(text)} may be {choices}: write one of them")
-        return body.replace(",", ".")
+        readings = {".": body.replace(",", ""), ",": body.replace(",", ".")}
+        if decimal is None:
+            raise NumberError(f"{brief(text)} may be {' or '.join(readings.values())}: write one of them")
+        return readings[decimal]
     for form, groups in _FORMS:
         if form.fullmatch(body):
             for mark in groups or "":

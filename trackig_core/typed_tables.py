@@ -1,0 +1,316 @@
+"""Tables of numbers as people paste and save them: from a spreadsheet, a PDF, a letter, a test house.
+
+:func:`read_table` finds which lines are titles, headers, units and remarks, whether the table lies on its
+side, and the unit of each column. It leaves nothing out without a word: what was skipped stands in the notes.
+It knows nothing of bands or stiffness: who asks for a table says what it has to hold.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from trackig_core.arrays import RealArray
+from trackig_core.names import brief
+from trackig_core.table_text import Cell, Row, TableError, read_cells
+from trackig_core.typed_numbers import Unit, find_unit
+
+_FREQUENCY = re.compile(
+    r"freq|frek|fréq|częst|czest|kmitoč|taaj|sıklık|周波数|频率|частот|συχν|terz|\bband|third|tiers|terts|mitten"
+    r"|\bf(_?m)?\b(?!\()",
+    re.IGNORECASE,
+)
+"""What a header says of frequencies, in the languages of the field."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a table, or one row of a table on its side.
+
+    Attributes
+    ----------
+    header : str
+        What stands above it; empty if nothing does.
+    unit : Unit or None
+        Unit of its numbers by its header, a row of units, or its cells; None if nothing is said.
+    place : str
+        Where it stands in the file: ``"column 2"``, or ``"line 3"`` of a table on its side.
+    cells : tuple of Cell
+        One cell a row.
+    """
+
+    header: str
+    unit: Unit | None
+    place: str
+    cells: tuple[Cell, ...]
+
+    @property
+    def words(self) -> str:
+        """Place and header, for messages."""
+        return f"{self.place} ({brief(self.header)})" if self.header else self.place
+
+    @property
+    def is_numeric(self) -> bool:
+        """Whether it holds numbers, and no words."""
+        held = [each.value is not None for each in self.cells]
+        return any(held) and not any(each.is_words for each in self.cells)
+
+    @cached_property
+    def is_frequency(self) -> bool:
+        """Whether its unit, or for want of one its header, says that it holds frequencies."""
+        if self.unit is not None:
+            return self.unit.quantity == "frequency"
+        return _FREQUENCY.search(self.header) is not None
+
+    @property
+    def values(self) -> RealArray:
+        """Its numbers as they stand there (rows,), NaN where there is none."""
+        return np.array([np.nan if each.value is None else each.value for each in self.cells])
+
+    def values_in(self, unit: str) -> RealArray:
+        """Return its numbers in a unit (rows,) [unit], NaN where there is none.
+
+        Parameters
+        ----------
+        unit : str
+            The unit wanted; numbers without a unit, of their own or of the column, are taken to be in it.
+
+        Returns
+        -------
+        numpy.ndarray
+            The numbers.
+
+        Raises
+        ------
+        TableError
+            If a number is in a unit of another quantity.
+        """
+        return np.array([self.value_in(each, unit) for each in self.cells])
+
+    def value_in(self, cell: Cell, unit: str) -> float:
+        """Return the number of one of its cells in a unit, as :meth:`values_in` does."""
+        given, wanted = cell.unit or self.unit, find_unit(unit)
+        if wanted is None:
+            raise ValueError(f"{unit}: no unit of which anything is known")
+        if cell.value is None:
+            return np.nan
+        if given is not None and given.quantity != wanted.quantity:
+            message = f"{brief(cell.text)} is in {given.name}, a unit of {given.quantity}: give it in {unit}"
+            raise TableError(message, cell.line, cell.column)
+        return cell.value if given is None else given.convert(cell.value, wanted)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table as it was read.
+
+    Attributes
+    ----------
+    columns : tuple of Column
+        Its columns, each with one cell a row.
+    notes : tuple of str
+        What was skipped, and where.
+    """
+
+    columns: tuple[Column, ...]
+    notes: tuple[str, ...] = ()
+
+
+def read_table(
+    data: str | bytes,
+    *,
+    is_axis: Callable[[float], bool] | None = None,
+    undecided: str | None = None,
+) -> Table:
+    """Read a table of numbers.
+
+    Parameters
+    ----------
+    data : str or bytes
+        What was pasted, or what a file holds, in UTF-8, UTF-16 or the code of Western Windows.
+    is_axis : callable, optional
+        Whether a number may be of the row of frequencies of a table on its side that has no headers.
+    undecided : str, optional
+        Decimal mark, ``","`` or ``"."``, of numbers such as ``1,200`` if no other number of the table tells;
+        else they are at fault.
+
+    Returns
+    -------
+    Table
+        Columns with header, unit, place and cells, and notes of what was skipped.
+
+    Raises
+    ------
+    TableError
+        If this is no text, or its lines have different numbers of values.
+    """
+    rows = [row for row in read_cells(data, undecided) if not all(cell.is_blank for cell in row)]
+    if _is_on_its_side(rows, is_axis):
+        return _from_side(rows)
+    first = next((at for at, row in enumerate(rows) if any(cell.value is not None for cell in row)), len(rows))
+    body, notes = _body(rows[first:])
+    width = _width(body)
+    heads, titles = _heads(rows[:first], width)
+    width = max([width, *(len(head) for head in heads)])
+    columns = (_column(heads, body, at) for at in range(width))
+    return Table(tuple(each for each in columns if each is not None), (*titles, *notes))
+
+
+def _body(rows: Sequence[Row]) -> tuple[list[Row], tuple[str, ...]]:
+    """Return rows that hold numbers, or what was meant as such, and notes of the others."""
+    body, notes = [], []
+    for row in rows:
+        if all(cell.is_words or cell.is_blank for cell in row):
+            notes.append(_skipped(row))
+        else:
+            body.append(row)
+    return body, tuple(notes)
+
+
+def _skipped(row: Row) -> str:
+    text = " ".join(cell.text for cell in row if not cell.is_blank)
+    return f"line {row[0].line} is not read: {brief(text)}"
+
+
+def _width(body: Sequence[Row]) -> int:
+    """Return the number of columns, or raise a TableError where a line has values too many."""
+    lengths = [max(at for at, cell in enumerate(row, start=1) if not cell.is_words) for row in body]
+    if not lengths:
+        return 0
+    counts = Counter(lengths)
+    usual = min(counts, key=lambda length: (-counts[length], length))
+    for row in body:
+        if len(row) > usual and row[usual].value is not None:
+            message = (
+                f"{sum(cell.value is not None for cell in row)} values where other lines have {usual}; "
+                "if numbers have decimal commas, separate them by semicolons"
+            )
+            raise TableError(message, row[0].line, usual + 1)
+    return max(len(row) for row in body)
+
+
+def _heads(rows: Sequence[Row], width: int) -> tuple[list[Row], tuple[str, ...]]:
+    """Return the rows that are headers, one cell a column, and notes of those that are titles."""
+    heads = [row for row in rows if width == 1 or sum(not cell.is_blank for cell in row) > 1]
+    titles = [row for row in rows if row not in heads]
+    if titles and not heads:
+        divided = _divided(titles[-1][0], width)
+        if len(divided) == width:
+            heads.append(divided)
+            titles.pop()
+    return heads, tuple(map(_skipped, titles))
+
+
+def _divided(cell: Cell, width: int) -> Row:
+    """Return the headers in a line that only spaces divide: after brackets, or word by word."""
+    for pattern in (r"(?<=[\])])\s+", r"\s+"):
+        texts = re.split(pattern, cell.text)
+        if len(texts) == width:
+            return tuple(Cell(text, cell.line, at) for at, text in enumerate(texts, start=1))
+    return (cell,)
+
+
+def _column(heads: Sequence[Row], body: Sequence[Row], at: int) -> Column | None:
+    """Return a column, or None if it is empty."""
+    cells = tuple(
+        row[at] if at < len(row) else Cell("", row[0].line, at + 1) for row in body
+    )
+    texts = [head[at].text for head in heads if at < len(head) and not head[at].is_blank]
+    if not texts and all(cell.is_blank for cell in cells):
+        return None
+    return Column(" ".join(texts), _unit(texts, cells), f"column {at + 1}", cells)
+
+
+def _unit(headers: Sequence[str], cells: Sequence[Cell]) -> Unit | None:
+    """Return the unit that headers name, or else all numbers have."""
+    for header in headers:
+        unit = unit_of_header(header)
+        if unit is not None:
+            return unit
+    units = {cell.unit for cell in cells if cell.value is not None}
+    return units.pop() if len(units) == 1 else None
+
+
+def unit_of_header(header: str) -> Unit | None:
+    """Return the unit that a header names: in brackets, alone, or as one of its words.
+
+    Parameters
+    ----------
+    header : str
+        Such as ``"Steifigkeit [kN/mm]"``, ``"f / Hz"``, ``"stiffness_N_per_m"``.
+
+    Returns
+    -------
+    Unit or None
+        The unit, or None if there is none.
+    """
+    bracketed = re.findall(r"[\[(]([^\])]*)[\])]", header)
+    words = re.split(r"[\s,;:_()\[\]]+", re.sub("_per_", "/", header, flags=re.IGNORECASE))
+    # letters alone are symbols of what is measured rather than units
+    candidates = [*bracketed, *([header] if len(header) > 1 else []), *(word for word in words if len(word) > 1)]
+    return next((unit for unit in map(find_unit, candidates) if unit is not None), None)
+
+
+def _is_on_its_side(rows: Sequence[Row], is_axis: Callable[[float], bool] | None) -> bool:
+    """Return whether frequencies stand side by side, in the first row that has numbers."""
+    series = [row for row in rows if sum(cell.value is not None for cell in row) > 1]
+    if len(series) < 2:
+        return False
+    label, first = _label(series[0]), [cell.value for cell in series[0] if cell.value is not None]
+    if _names_frequency(label):
+        return True
+    if label or is_axis is None or len(first) < max(3, len(series) + 1) or first != sorted(set(first)):
+        return False
+    down = [row[0].value for row in series]
+    is_upright = all(each is not None and is_axis(each) for each in down) and down == sorted(down)
+    return all(map(is_axis, first)) and not is_upright
+
+
+def _label(row: Row) -> str:
+    """Return the words before the numbers of a row."""
+    return next((cell.text for cell in row if not cell.is_blank), "") if _first(row).is_words else ""
+
+
+def _first(row: Row) -> Cell:
+    return next(cell for cell in row if not cell.is_blank)
+
+
+def _names_frequency(label: str) -> bool:
+    return bool(label) and Column(label, unit_of_header(label), "", ()).is_frequency
+
+
+def _from_side(rows: Sequence[Row]) -> Table:
+    """Return a table whose frequencies stand side by side; it may be broken into several blocks."""
+    series = [row for row in rows if any(cell.value is not None for cell in row)]
+    notes = tuple(_skipped(row) for row in rows if row not in series)
+    starts = [at for at, row in enumerate(series) if _names_frequency(_label(row))] or [0]
+    blocks = [series[start:end] for start, end in pairwise([*starts, len(series)])]
+    for block in blocks:
+        if len(block) != len(blocks[0]):
+            message = f"{len(block)} rows from here on where the first part of the table has {len(blocks[0])}"
+            raise TableError(message, block[0][0].line)
+    parts = [_part(block) for block in blocks]
+    columns = []
+    for at, (header, first) in enumerate(parts[0]):
+        cells = tuple(cell for part in parts for cell in part[at][1])
+        columns.append(Column(header, _unit([header], cells), f"line {first[0].line}", cells))
+    return Table(tuple(columns), notes)
+
+
+def _part(block: Sequence[Row]) -> list[tuple[str, Row]]:
+    """Return the header and the cells of each row of a block, as many as there are frequencies."""
+    frequencies = block[0]
+    begin = next(at for at, cell in enumerate(frequencies) if cell.value is not None)
+    found = []
+    for row in block:
+        if any(cell.value is not None for cell in row[:begin]) or len(row) > len(frequencies):
+            message = f"values do not stand below the frequencies of line {frequencies[0].line}: give one each"
+            raise TableError(message, row[0].line, min(len(row), begin))
+        blanks = (Cell("", row[0].line, at) for at in range(len(row) + 1, len(frequencies) + 1))
+        header = " ".join(cell.text for cell in row[:begin] if not cell.is_blank)
+        found.append((header, (*row, *blanks)[begin:]))
+    return found
