@@ -37,34 +37,41 @@ class Column:
         What stands above it; empty if nothing does.
     unit : Unit or None
         Unit of its numbers by its header, a row of units, or its cells; None if nothing is said.
-    place : str
-        Where it stands in the file: ``"column 2"``, or ``"line 3"`` of a table on its side.
+    head : Cell
+        The first cell of all, header or not.
     cells : tuple of Cell
         One cell a row.
+    is_row : bool
+        Whether it lies on its side.
     """
 
     header: str
     unit: Unit | None
-    place: str
+    head: Cell
     cells: tuple[Cell, ...]
+    is_row: bool = False
 
     @property
     def words(self) -> str:
-        """Place and header, for messages."""
-        return f"{self.place} ({brief(self.header)})" if self.header else self.place
+        """Place in the file and header, for messages."""
+        place = f"line {self.head.line}" if self.is_row else f"column {self.head.column}"
+        return f"{place} ({brief(self.header)})" if self.header else place
 
     @property
     def is_numeric(self) -> bool:
-        """Whether it holds numbers, and no words."""
+        """Whether it holds more numbers than words."""
         held = [each.value is not None for each in self.cells]
-        return any(held) and not any(each.is_words for each in self.cells)
+        return sum(held) > sum(each.is_words for each in self.cells)
+
+    @property
+    def is_counting(self) -> bool:
+        """Whether it numbers the rows."""
+        return [each.value for each in self.cells] in [list(range(n, n + len(self.cells))) for n in (0, 1)]
 
     @cached_property
     def is_frequency(self) -> bool:
         """Whether its unit, or for want of one its header, says that it holds frequencies."""
-        if self.unit is not None:
-            return self.unit.quantity == "frequency"
-        return _FREQUENCY.search(self.header) is not None
+        return _names_frequency(self.header, self.unit)
 
     @property
     def values(self) -> RealArray:
@@ -151,7 +158,9 @@ def read_table(
     rows = [row for row in read_cells(data, undecided) if not all(cell.is_blank for cell in row)]
     if _is_on_its_side(rows, is_axis):
         return _from_side(rows)
-    first = next((at for at, row in enumerate(rows) if any(cell.value is not None for cell in row)), len(rows))
+    first = next(
+        (at for at, row in enumerate(rows) if any(cell.value is not None for cell in row)), len(rows)
+    )
     body, notes = _body(rows[first:])
     width = _width(body)
     heads, titles = _heads(rows[:first], width)
@@ -178,11 +187,10 @@ def _skipped(row: Row) -> str:
 
 def _width(body: Sequence[Row]) -> int:
     """Return the number of columns, or raise a TableError where a line has values too many."""
-    lengths = [max(at for at, cell in enumerate(row, start=1) if not cell.is_words) for row in body]
-    if not lengths:
-        return 0
-    counts = Counter(lengths)
-    usual = min(counts, key=lambda length: (-counts[length], length))
+    # what ends in words or has no value tells nothing of how many values a line should have
+    lengths = [len(row) for row in body if len(row) > 1 and not any(cell.is_words for cell in row)]
+    counts = Counter(lengths or [len(row) for row in body])
+    usual = min(counts, key=lambda length: (-counts[length], length), default=0)
     for row in body:
         if len(row) > usual and row[usual].value is not None:
             message = (
@@ -216,13 +224,12 @@ def _divided(cell: Cell, width: int) -> Row:
 
 def _column(heads: Sequence[Row], body: Sequence[Row], at: int) -> Column | None:
     """Return a column, or None if it is empty."""
-    cells = tuple(
-        row[at] if at < len(row) else Cell("", row[0].line, at + 1) for row in body
-    )
-    texts = [head[at].text for head in heads if at < len(head) and not head[at].is_blank]
-    if not texts and all(cell.is_blank for cell in cells):
+    cells = tuple(row[at] if at < len(row) else Cell("", row[0].line, at + 1) for row in body)
+    over = [head[at] for head in heads if at < len(head) and not head[at].is_blank]
+    if not over and all(cell.is_blank for cell in cells):
         return None
-    return Column(" ".join(texts), _unit(texts, cells), f"column {at + 1}", cells)
+    texts = [cell.text for cell in over]
+    return Column(" ".join(texts), _unit(texts, cells), [*over, *cells][0], cells)
 
 
 def _unit(headers: Sequence[str], cells: Sequence[Cell]) -> Unit | None:
@@ -251,7 +258,11 @@ def unit_of_header(header: str) -> Unit | None:
     bracketed = re.findall(r"[\[(]([^\])]*)[\])]", header)
     words = re.split(r"[\s,;:_()\[\]]+", re.sub("_per_", "/", header, flags=re.IGNORECASE))
     # letters alone are symbols of what is measured rather than units
-    candidates = [*bracketed, *([header] if len(header) > 1 else []), *(word for word in words if len(word) > 1)]
+    candidates = [
+        *bracketed,
+        *([header] if len(header) > 1 else []),
+        *(word for word in words if len(word) > 1),
+    ]
     return next((unit for unit in map(find_unit, candidates) if unit is not None), None)
 
 
@@ -260,34 +271,41 @@ def _is_on_its_side(rows: Sequence[Row], is_axis: Callable[[float], bool] | None
     series = [row for row in rows if sum(cell.value is not None for cell in row) > 1]
     if len(series) < 2:
         return False
-    label, first = _label(series[0]), [cell.value for cell in series[0] if cell.value is not None]
-    if _names_frequency(label):
+    if _begins_side(series[0]):
         return True
-    if label or is_axis is None or len(first) < max(3, len(series) + 1) or first != sorted(set(first)):
+    first = [cell.value for cell in series[0] if cell.value is not None]
+    down = [row[0].value for row in series if row[0].value is not None]
+    if is_axis is None or _first(series[0]).is_words or len(first) < max(3, len(series) + 1):
         return False
-    down = [row[0].value for row in series]
-    is_upright = all(each is not None and is_axis(each) for each in down) and down == sorted(down)
-    return all(map(is_axis, first)) and not is_upright
+    is_upright = len(down) == len(series) and _ascends(down, is_axis)
+    return _ascends(first, is_axis) and not is_upright
 
 
-def _label(row: Row) -> str:
-    """Return the words before the numbers of a row."""
-    return next((cell.text for cell in row if not cell.is_blank), "") if _first(row).is_words else ""
+def _ascends(values: Sequence[float], is_axis: Callable[[float], bool]) -> bool:
+    return all(map(is_axis, values)) and all(low < high for low, high in pairwise(values))
+
+
+def _begins_side(row: Row) -> bool:
+    """Return whether a row begins by words on frequency."""
+    first = _first(row)
+    return first.is_words and _names_frequency(first.text, unit_of_header(first.text))
 
 
 def _first(row: Row) -> Cell:
     return next(cell for cell in row if not cell.is_blank)
 
 
-def _names_frequency(label: str) -> bool:
-    return bool(label) and Column(label, unit_of_header(label), "", ()).is_frequency
+def _names_frequency(header: str, unit: Unit | None) -> bool:
+    """Return whether a unit, or for want of one a header, says that numbers are frequencies."""
+    return unit.quantity == "frequency" if unit is not None else _FREQUENCY.search(header) is not None
 
 
 def _from_side(rows: Sequence[Row]) -> Table:
     """Return a table whose frequencies stand side by side; it may be broken into several blocks."""
     series = [row for row in rows if any(cell.value is not None for cell in row)]
     notes = tuple(_skipped(row) for row in rows if row not in series)
-    starts = [at for at, row in enumerate(series) if _names_frequency(_label(row))] or [0]
+    # the first row may lack words, and it begins the first block in any case
+    starts = [at for at, row in enumerate(series) if _begins_side(row)] or [0]
     blocks = [series[start:end] for start, end in pairwise([*starts, len(series)])]
     for block in blocks:
         if len(block) != len(blocks[0]):
@@ -295,9 +313,10 @@ def _from_side(rows: Sequence[Row]) -> Table:
             raise TableError(message, block[0][0].line)
     parts = [_part(block) for block in blocks]
     columns = []
-    for at, (header, first) in enumerate(parts[0]):
+    for at, row in enumerate(blocks[0]):
+        header = parts[0][at][0]
         cells = tuple(cell for part in parts for cell in part[at][1])
-        columns.append(Column(header, _unit([header], cells), f"line {first[0].line}", cells))
+        columns.append(Column(header, _unit([header], cells), _first(row), cells, is_row=True))
     return Table(tuple(columns), notes)
 
 
@@ -308,7 +327,9 @@ def _part(block: Sequence[Row]) -> list[tuple[str, Row]]:
     found = []
     for row in block:
         if any(cell.value is not None for cell in row[:begin]) or len(row) > len(frequencies):
-            message = f"values do not stand below the frequencies of line {frequencies[0].line}: give one each"
+            message = (
+                f"values do not stand below the frequencies of line {frequencies[0].line}: give one each"
+            )
             raise TableError(message, row[0].line, min(len(row), begin))
         blanks = (Cell("", row[0].line, at) for at in range(len(row) + 1, len(frequencies) + 1))
         header = " ".join(cell.text for cell in row[:begin] if not cell.is_blank)

@@ -49,7 +49,19 @@ class Specification(BandTable):
         low=-100.0,
         high=100.0,
         error=SpecificationError,
+        hints=r"limit|grenz|max|zul|allow|permit|requir|exig|anforder|soll|spec|insertion|einf|≤|<",
+        is_bound=True,
     )
+
+    @property
+    def is_probably_loss(self) -> bool:
+        """Whether no limit is below zero and one is above, as if they were insertion *losses*."""
+        limits = [limit for _, limit in self.points]
+        return min(limits) >= 0 and max(limits) > 0
+
+    def turned(self) -> "Specification":
+        """Return a specification of the same name with the sign of every limit turned (Specification)."""
+        return Specification(tuple((frequency, -limit) for frequency, limit in self.points), self.name)
 
     def check(self, levels: ArrayLike) -> "Verdict":
         """Compare insertion gain with the specification.
