@@ -18,7 +18,13 @@ MOST_BYTES = 65536
 MOST_LINES = 1000
 """Lines that a file may have [-]."""
 
-SAMPLE = 60
+LONGEST_LINE = 1000
+"""Characters that a line may have [-]."""
+
+MOST_CELLS = 6000
+"""Cells that a table may have, or words of text between spaces [-]."""
+
+SAMPLE = 30
 """Lines from which it is told what separates the cells [-]."""
 
 SEPARATORS = ("\t", ";", "|", ",", ":", "=", " ")
@@ -132,6 +138,9 @@ def read_cells(data: str | bytes, undecided: str | None = None) -> list[Row]:
     """
     lines = _lines(_decoded(data))
     separator = _separator(lines[:SAMPLE])
+    count = sum(len(line.split(separator or None)) for _, line in lines)
+    if count > MOST_CELLS:
+        raise TableError(f"{count} cells: give at most {MOST_CELLS}")
     rows = list(_split(lines, separator))
     if separator == " ":
         _check_loose_signs(rows)
@@ -172,6 +181,9 @@ def _lines(text: str) -> list[tuple[int, str]]:
         lines.pop()
     if len(lines) > MOST_LINES:
         raise TableError(f"{len(lines)} lines: give at most {MOST_LINES}")
+    for number, line in enumerate(lines, start=1):
+        if len(line) > LONGEST_LINE:
+            raise TableError(f"{len(line)} characters: give at most {LONGEST_LINE} a line", number)
     # the first line of some spreadsheets' files names the separator
     return [
         (number, line)

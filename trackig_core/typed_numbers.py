@@ -10,6 +10,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache, lru_cache
 
 from trackig_core.names import brief
 
@@ -72,6 +73,7 @@ class Unit:
         return value if self == wanted else float(Fraction(str(value)) * self.factor / wanted.factor)
 
 
+@cache
 def _power(exponent: int) -> Fraction:
     return Fraction(10) ** exponent
 
@@ -114,6 +116,8 @@ def _folded(text: str) -> str:
 
 def _plain(text: str) -> str:
     """Return text with one form of digits, minus, space and multiplication; superscripts become powers."""
+    if text.isascii():
+        return " ".join(text.split())
     text = _SUPERSCRIPT.sub(lambda found: "^" + unicodedata.normalize("NFKC", found[0]), text)
     text = unicodedata.normalize("NFKC", text.translate(_PLAIN)).translate(_PLAIN)
     text = "".join(str(unicodedata.decimal(each)) if each.isdecimal() else each for each in text)
@@ -224,6 +228,7 @@ def decimal_mark(text: str) -> str | None:
     return "," if body.rfind(",") > body.rfind(".") else "."
 
 
+@lru_cache(maxsize=4096)
 def _split(text: str, decimal: str | None) -> tuple[Fraction, str]:
     """Return the exact value of a text's number, and the unit behind it as it is written."""
     # 1k25 stands on scales of frequency for 1.25 kHz

@@ -198,7 +198,7 @@ def _width(body: Sequence[Row]) -> int:
                 "if numbers have decimal commas, separate them by semicolons"
             )
             raise TableError(message, row[0].line, usual + 1)
-    return max(len(row) for row in body)
+    return max((len(row) for row in body), default=0)
 
 
 def _heads(rows: Sequence[Row], width: int) -> tuple[list[Row], tuple[str, ...]]:
@@ -302,7 +302,8 @@ def _names_frequency(header: str, unit: Unit | None) -> bool:
 
 def _from_side(rows: Sequence[Row]) -> Table:
     """Return a table whose frequencies stand side by side; it may be broken into several blocks."""
-    series = [row for row in rows if any(cell.value is not None for cell in row)]
+    # a row of words and blanks holds a part of the table without values
+    series = [row for row in rows if len(row) > 1 and not any(cell.is_words for cell in row[2:])]
     notes = tuple(_skipped(row) for row in rows if row not in series)
     # the first row may lack words, and it begins the first block in any case
     starts = [at for at, row in enumerate(series) if _begins_side(row)] or [0]
@@ -326,11 +327,10 @@ def _part(block: Sequence[Row]) -> list[tuple[str, Row]]:
     begin = next(at for at, cell in enumerate(frequencies) if cell.value is not None)
     found = []
     for row in block:
-        if any(cell.value is not None for cell in row[:begin]) or len(row) > len(frequencies):
-            message = (
-                f"values do not stand below the frequencies of line {frequencies[0].line}: give one each"
-            )
-            raise TableError(message, row[0].line, min(len(row), begin))
+        wrong = [cell for cell in row[:begin] if cell.value is not None] + [*row[len(frequencies) :]]
+        if wrong:
+            message = f"{brief(wrong[0].text)} does not stand below a frequency of line {frequencies[0].line}"
+            raise TableError(message, wrong[0].line, wrong[0].column)
         blanks = (Cell("", row[0].line, at) for at in range(len(row) + 1, len(frequencies) + 1))
         header = " ".join(cell.text for cell in row[:begin] if not cell.is_blank)
         found.append((header, (*row, *blanks)[begin:]))

@@ -40,7 +40,7 @@ base-two centres pass, and bands lie 26 % apart."""
 
 _LOSS = re.compile(
     r"loss|dämm|daemm|dämpf|daempf|minder|reduc|réduc|reduz|riduz|attenu|atténu|affaibl|perte|pérdida|perdita"
-    r"|demping|≥|>",
+    r"|demping|\bD_?e\b|≥|>",
     re.IGNORECASE,
 )
 """What a header says of insertion loss, which is insertion gain with the sign turned."""
@@ -324,9 +324,13 @@ def _frequencies(table: Table, quantity: Quantity) -> Column:
     several = [each for each in named if _are_bands(each)] or named
     if several:
         return several[0]
-    able = [each for each in table.columns if each.is_numeric and each.unit is None]
-    counted = [each for each in able if not each.is_counting] if len(able) > 2 else able
-    return (counted or list(table.columns))[0]
+    able = [each for each in _uncounted(table.columns) if each.unit is None]
+    return next((each for each in able if np.isfinite(each.values).any()), table.columns[0])
+
+
+def _uncounted(columns: Sequence[Column]) -> list[Column]:
+    """Return columns without one that numbers the rows of a table of three or more."""
+    return [each for each in columns if len(columns) < 3 or not each.is_counting]
 
 
 def _are_bands(column: Column) -> bool:
@@ -337,7 +341,7 @@ def _are_bands(column: Column) -> bool:
 
 def _levels(table: Table, frequencies: Column, quantity: Quantity) -> Column:
     """Return the column that holds the levels, or raise the quantity's error if several may."""
-    others = [each for each in table.columns if each is not frequencies]
+    others = [each for each in _uncounted(table.columns) if each is not frequencies]
     named = [each for each in others if each.header.casefold() == quantity.column]
     able = [each for each in others if each.unit is None or each.unit.quantity == "level"]
     in_decibels = [each for each in able if each.unit is not None]

@@ -80,7 +80,8 @@ def test_files_are_read_as_people_write_them(data):
         ("8,1\n31,5,-3,5\n", 2, 3, "decimal commas"),
         ("8;1\n10;1.234,5\n", 2, 2, "ig_max_db = 1234.5"),
         ("8,1\n10,<script>alert(1)</script>\n", 2, 2, "<script>"),
-        ("8,1\n10," + "9" * 5000 + "\n", 2, 2, "ig_max_db = '999"),
+        ("8,1\n10," + "9" * 900 + "\n", 2, 2, "ig_max_db = '999"),
+        ("8,1\n10," + "9" * 5000 + "\n", 2, None, "at most 1000 a line"),
         ('8,1\n10,"1\n', None, None, None),
     ],
 )
@@ -93,7 +94,8 @@ def test_wrong_files_name_line_and_column(text, line, column, words):
     message = str(caught.value)
     assert (caught.value.line, caught.value.column) == (line, column)
     assert words in message
-    assert message.startswith(f"line {line}, column {column}: " if line else "no band")
+    place = f"line {line}" + (f", column {column}" if column else "")
+    assert message.startswith(f"{place}: " if line else "no band")
     assert len(message) < 250
 
 
