@@ -110,7 +110,7 @@ def njit(*, cache: bool = False, **options: Any) -> Callable[[Callable[..., Any]
     def compiled(function: Callable[..., Any]) -> Any:
         dispatcher: Any = numba.njit(**options)(function)
         # with NUMBA_DISABLE_JIT the function stays as it is
-        if cache and not numba.config.DISABLE_JIT:
+        if cache and hasattr(dispatcher, "enable_caching"):
             dispatcher._cache = _cache_of(function)
         return dispatcher
 
