@@ -22,7 +22,7 @@ import numpy as np
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
-from trackig_core.table_text import AT_LEAST, Cell, TableError
+from trackig_core.table_text import AT_LEAST, AT_MOST, Cell, TableError, parsed
 from trackig_core.table_text import MOST_BYTES as MOST_BYTES
 from trackig_core.typed_tables import Column, Table, read_table
 
@@ -101,6 +101,33 @@ class Quantity:
     def allowed(self) -> str:
         """What may be given for a level."""
         return f"a number from {self.low:g} to {self.high:g} dB"
+
+    def read(self, text: str) -> float | None:
+        """Return the level that was typed for one band.
+
+        Parameters
+        ----------
+        text : str
+            What was typed, such as ``"-6,5"`` or ``"<= -6 dB"``.
+
+        Returns
+        -------
+        float or None
+            The level [dB]; None if nothing was given.
+
+        Raises
+        ------
+        BandTableError
+            If the text is no level.
+        """
+        cell = parsed(Cell(" ".join(text.split()), 1, 1), ",")
+        if cell.is_blank:
+            return None
+        in_decibels = cell.unit is None or cell.unit.quantity == "level"
+        bounded = cell.bound and not (self.is_bound and cell.bound == AT_MOST)
+        if cell.value is None or bounded or not in_decibels or not self.low <= cell.value <= self.high:
+            raise self.error(f"{brief(text)}: give {self.allowed}, or nothing")
+        return cell.value
 
 
 @dataclass(frozen=True)
