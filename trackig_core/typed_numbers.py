@@ -73,6 +73,10 @@ class Unit:
         return value if self == wanted else float(Fraction(str(value)) * self.factor / wanted.factor)
 
 
+_PURE = Unit("", "ratio", Fraction(1))
+"""Unit of a number without one."""
+
+
 @cache
 def _power(exponent: int) -> Fraction:
     return Fraction(10) ** exponent
@@ -102,7 +106,7 @@ def _units() -> dict[str, Unit]:
             add("stiffness per area", **{f"{force}/{length}3": _power(much - 3 * long)})
             add("bending stiffness", **{f"{force} {length}2": _power(much + 2 * long)})
             add("damping", **{f"{force} s/{length}": stiffness})
-    units: dict[str, Unit] = {}
+    units: dict[str, Unit] = {"": _PURE, "-": _PURE}
     for unit in found:
         units[_folded(unit.name)] = unit
         units.setdefault(_folded(unit.name).casefold(), unit)
@@ -126,9 +130,6 @@ def _plain(text: str) -> str:
 
 _UNITS = _units()
 
-_PURE = Unit("", "ratio", Fraction(1))
-"""Unit of a number without one."""
-
 
 class NumberError(ValueError):
     """Text is not the number that is wanted; the message says why and what to give."""
@@ -140,7 +141,7 @@ def find_unit(text: str) -> Unit | None:
     Parameters
     ----------
     text : str
-        A name such as ``"kN/mm"``, ``"N·m²"``, ``"HZ"``.
+        A name such as ``"kN/mm"``, ``"N·m²"``, ``"HZ"``; empty for a number without unit.
 
     Returns
     -------
@@ -148,6 +149,8 @@ def find_unit(text: str) -> Unit | None:
         The unit, or None if it is none that is known.
     """
     name = _folded(text)
+    if text and not name:
+        return None
     return _UNITS.get(name) or _UNITS.get(name.casefold())
 
 
@@ -177,7 +180,7 @@ def read_number(text: str, unit: str = "", *, decimal: str | None = None) -> flo
     value, written = _split(text, decimal)
     if not written:
         return _finite(value, text)
-    given, wanted = _known_unit(written, text), find_unit(unit) if unit else _PURE
+    given, wanted = _known_unit(written, text), find_unit(unit)
     if wanted is None:
         raise ValueError(f"{unit}: no unit of which anything is known")
     if given.quantity != wanted.quantity:

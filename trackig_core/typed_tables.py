@@ -162,7 +162,7 @@ def read_table(
         (at for at, row in enumerate(rows) if any(cell.value is not None for cell in row)), len(rows)
     )
     body, notes = _body(rows[first:])
-    width = _width(body)
+    width = _width(body, [len(row) for row in rows[:first]])
     heads, titles = _heads(rows[:first], width)
     width = max([width, *(len(head) for head in heads)])
     columns = (_column(heads, body, at) for at in range(width))
@@ -185,12 +185,12 @@ def _skipped(row: Row) -> str:
     return f"line {row[0].line} is not read: {brief(text)}"
 
 
-def _width(body: Sequence[Row]) -> int:
+def _width(body: Sequence[Row], heads: Sequence[int]) -> int:
     """Return the number of columns, or raise a TableError where a line has values too many."""
     # what ends in words or has no value tells nothing of how many values a line should have
     lengths = [len(row) for row in body if len(row) > 1 and not any(cell.is_words for cell in row)]
     counts = Counter(lengths or [len(row) for row in body])
-    usual = min(counts, key=lambda length: (-counts[length], length), default=0)
+    usual = max([min(counts, key=lambda length: (-counts[length], length), default=0), *heads])
     for row in body:
         if len(row) > usual and row[usual].value is not None:
             message = (
@@ -258,11 +258,8 @@ def unit_of_header(header: str) -> Unit | None:
     bracketed = re.findall(r"[\[(]([^\])]*)[\])]", header)
     words = re.split(r"[\s,;:_()\[\]]+", re.sub("_per_", "/", header, flags=re.IGNORECASE))
     # letters alone are symbols of what is measured rather than units
-    candidates = [
-        *bracketed,
-        *([header] if len(header) > 1 else []),
-        *(word for word in words if len(word) > 1),
-    ]
+    words = [word for word in words if len(word) > 1 or word == "%"]
+    candidates = [*bracketed, *([header] if len(header) > 1 else []), *words]
     return next((unit for unit in map(find_unit, candidates) if unit is not None), None)
 
 
