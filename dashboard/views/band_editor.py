@@ -91,6 +91,8 @@ class BandEditor(Viewer):
         self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
         self.message = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(0, 12, 4, 12))
+        # where the table is higher than the window, the first message is out of sight of who pastes below it
+        self.answer = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(4, 12, 4, 12))
         self.pasted = pmui.TextAreaInput(
             label="Paste a table of Hz and dB",
             placeholder=EXAMPLES[name],
@@ -113,21 +115,21 @@ class BandEditor(Viewer):
         """The table as it is kept, or None."""
         return getattr(self._assessment, self._name)
 
-    def take(self, data):
-        """Take a whole table, as bytes or text, or say why not."""
+    def take(self, data, message=None):
+        """Take a whole table, as bytes or text, or say why not in a pane, by default that of the table."""
         try:
             reading = self._kind.read(data)
         except tig.BandTableError as error:
-            self._tell(f"Not taken: {error}.")
+            self._tell(f"Not taken: {error}.", pane=message)
             return False
         self._keep(reading.table)
         if reading.notes:
-            self._tell(f"Taken; {'; '.join(reading.notes)}.", "status")
+            self._tell(f"Taken; {'; '.join(reading.notes)}.", "status", message)
         self.on_read(reading)
         return True
 
     def _take_area(self, *_):
-        if self.take(self.pasted.value):
+        if self.take(self.pasted.value, self.answer):
             self.pasted.value = ""
 
     def _take_pasted(self, band, text):
@@ -171,8 +173,10 @@ class BandEditor(Viewer):
         # the box of a number that was typed in another form, or refused, shows the number as it is kept
         self.grid.show_again()
 
-    def _tell(self, words, role="alert"):
-        self.message.object = f'<div role="{role}">{html.escape(words)}</div>'
+    def _tell(self, words, role="alert", pane=None):
+        for each in (self.message, self.answer):
+            shown = words if each is (pane or self.message) else ""
+            each.object = f'<div role="{role}">{html.escape(shown)}</div>'
 
     def _show(self, *_):
         levels = dict(self.table.points) if self.table is not None else {}
@@ -195,7 +199,10 @@ class BandEditor(Viewer):
             self.message,
             pmui.Grid(
                 pmui.Grid(self.grid, size=WIDE),
-                pmui.Grid(pmui.Column(self.pasted, self.apply, sizing_mode="stretch_width"), size=NARROW),
+                pmui.Grid(
+                    pmui.Column(self.pasted, self.apply, self.answer, sizing_mode="stretch_width"),
+                    size=NARROW,
+                ),
                 container=True,
                 sizing_mode="stretch_width",
                 margin=0,

@@ -101,7 +101,8 @@ class SpecificationView(Tab):
 
 QUESTION = (
     "These limits look like an <b>insertion loss</b>, which counts what is taken away: the more, the better. "
-    "Insertion gain has the opposite sign: −10 dB asks for more than −5 dB, and any track keeps +10 dB."
+    "Insertion gain has the opposite sign: −10 dB asks for more than −5 dB, and limits above 0 dB ask for no "
+    "isolation at all."
 )
 
 WORDS = "bands without a limit are not assessed; a margin of exactly 0 dB complies"

@@ -105,6 +105,11 @@ def test_files_tables_and_columns_are_taken(session, view, exchange):
     view.editor.apply.param.trigger("clicks")
     assert limits(session) == {63.0: -3.0, 80.0: -4.5}
     assert view.editor.pasted.value == ""
+    view.editor.pasted.value = "63\t-3\n80\tx"
+    view.editor.apply.param.trigger("clicks")
+    assert "line 2, column 2" in view.editor.answer.object
+    assert "line 2" not in view.editor.message.object
+    assert view.editor.pasted.value == "63\t-3\n80\tx"
     place = tig.BAND_LABELS.index("100")
     view.editor.grid.handle_message({"kind": "pasted", "band": place, "text": "-6\n-7\n"})
     assert limits(session) == {63.0: -3.0, 80.0: -4.5, 100.0: -6.0, 125.0: -7.0}
