@@ -86,7 +86,7 @@ class BandEditor(Viewer):
     def __init__(self, assessment, name, exchange, given, words):
         super().__init__()
         self._assessment, self._name, self._exchange = assessment, name, exchange
-        self.on_read = lambda _: None
+        self.on_read = lambda _: ()
         self._kind = assessment.param[name].class_
         self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
@@ -123,9 +123,9 @@ class BandEditor(Viewer):
             self._tell(f"Not taken: {error}.", pane=message)
             return False
         self._keep(reading.table)
-        if reading.notes:
-            self._tell(f"Taken; {'; '.join(reading.notes)}.", "status", message)
-        self.on_read(reading)
+        notes = [*reading.notes, *self.on_read(reading)]
+        if notes:
+            self._tell(f"Taken; {'; '.join(notes)}.", "status", message)
         return True
 
     def _take_area(self, *_):

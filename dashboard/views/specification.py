@@ -66,9 +66,10 @@ class SpecificationView(Tab):
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
 
     def _note_reading(self, reading):
-        """Ask again of a table that was read: it may say that it holds insertion losses."""
+        """Ask again of a table that was read, which may say that it holds losses; return what to say of it."""
         self._says_loss, self._answered = reading.says_loss, False
         self._ask()
+        return (NOTE,) if self.question.visible else ()
 
     def _ask(self, *_):
         """Ask what the limits are while they look like insertion losses and nobody has answered."""
@@ -104,6 +105,8 @@ QUESTION = (
     "Insertion gain has the opposite sign: −10 dB asks for more than −5 dB, and limits above 0 dB ask for no "
     "isolation at all."
 )
+
+NOTE = "the limits look like an insertion loss: answer the question above the table"
 
 WORDS = "bands without a limit are not assessed; a margin of exactly 0 dB complies"
 

@@ -152,6 +152,7 @@ def test_limits_that_look_like_insertion_loss_are_asked_about(session, view, exc
     assert not view.question.visible
     exchange.openers["specification"](b"63;10\n80;12")
     assert view.question.visible
+    assert "answer the question above the table" in view.editor.message.object
     assert session.assessment.results[0].verdict.complies
     turn.param.trigger("clicks")
     assert limits(session) == {63.0: -10.0, 80.0: -12.0}
