@@ -66,7 +66,7 @@ class SpecificationView(Tab):
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
 
     def _note_reading(self, reading):
-        """Ask again of a table that was read, which may say that it holds losses; return what to say of it."""
+        """Ask again of a table that was read, and return what to say of it."""
         self._says_loss, self._answered = reading.says_loss, False
         self._ask()
         return (NOTE,) if self.question.visible else ()
