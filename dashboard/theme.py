@@ -302,6 +302,7 @@ li svg {{ align-self: center; }}
 MESSAGE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); }}
 div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS}; }}
+div[role=status] {{ font-weight: 400; color: var(--panel-on-background-color); }}
 """
 
 PROSE_WIDTH = 900

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from trackig_core.bands import chosen_bands
 from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.track.design import measured_curves
 
 if TYPE_CHECKING:
     import pandas
@@ -81,6 +82,14 @@ class Solution:
     def band_labels(self) -> tuple[str, ...]:
         """Nominal mid-band frequencies, as text (bands,) [Hz]."""
         return self.gain.bands.labels
+
+    @property
+    def extrapolated_bands(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text, of bands beyond what was measured of pad or boot [Hz]."""
+        beyond = {
+            band for curve in measured_curves(self.design).values() for band in curve.extrapolated_bands
+        }
+        return tuple(label for label in BAND_LABELS if label in beyond)
 
     @property
     def insertion_gain(self) -> RealArray:

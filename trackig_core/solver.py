@@ -24,7 +24,7 @@ from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid
 from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
 from trackig_core.time_domain.time_stepping import simulate
 from trackig_core.track.catalogue import PRESETS
-from trackig_core.track.design import DesignError
+from trackig_core.track.design import DesignError, measured_curves
 
 POOR_FIT = 0.1
 """Relative error of a fitted loss factor above which the solution says so [-]."""
@@ -146,7 +146,7 @@ def solve(
         boot_law=model.boot,
         grid=grid,
         history=history,
-        notes=notes + _fit_notes(model) + (_WIDE_NOTES if wide else ()),
+        notes=notes + _fit_notes(model) + _extrapolation_notes(model) + (_WIDE_NOTES if wide else ()),
     )
 
 
@@ -177,6 +177,20 @@ def _fit_notes(model: TrackModel) -> tuple[str, ...]:
         for part, law in zip(("pad", "boot"), model.springs, strict=False)
         if law.worst_error > POOR_FIT
     )
+
+
+def _extrapolation_notes(model: TrackModel) -> tuple[str, ...]:
+    """Return which bands rest on more than was measured."""
+    notes = []
+    for name, curve in measured_curves(model.design).items():
+        first, last = curve.points[0][0], curve.points[-1][0]
+        low = [band for band in curve.extrapolated_bands if float(band) < first]
+        high = [band for band in curve.extrapolated_bands if float(band) > last]
+        parts = [f"up to {band} Hz" for band in low[-1:]] + [f"from {band} Hz on" for band in high[:1]]
+        if parts:
+            measured = f"the {name.replace('_', ' ')} was measured from {first:g} to {last:g} Hz"
+            notes.append(f"{measured}: bands {' and '.join(parts)} rest on extrapolation")
+    return tuple(notes)
 
 
 def _extension_notes(grid: Grid, history: TimeHistory) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ bands without a limit say nothing.
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -65,6 +65,8 @@ class Specification(BandTable):
         low=-100.0,
         high=100.0,
         error=SpecificationError,
+        hints=r"limit|grenz|max|zul|allow|permit|requir|exig|anforder|soll|spec|insertion|einf|≤|<",
+        is_bound=True,
     )
 
     def __post_init__(self) -> None:
@@ -77,6 +79,16 @@ class Specification(BandTable):
             limit = _number("rail_deflection_limit", self.rail_deflection_limit)
             object.__setattr__(self, "rail_deflection_limit", limit)
         object.__setattr__(self, "wheel_load", load)
+
+    @property
+    def is_probably_loss(self) -> bool:
+        """Whether no limit is below zero and one is above, as if they were insertion *losses*."""
+        limits = [limit for _, limit in self.points]
+        return min(limits) >= 0 and max(limits) > 0
+
+    def turned(self) -> "Specification":
+        """Return the same specification with the sign of every level turned (Specification)."""
+        return replace(self, points=tuple((frequency, -limit) for frequency, limit in self.points))
 
     def check(self, levels: ArrayLike, rail_deflection: float | None = None) -> "Verdict":
         """Compare a track with the specification.

@@ -105,7 +105,8 @@ class _Section:
 
     def take(self, key: str, otherwise: Any = None) -> Any:
         """Return the value of a key, or ``otherwise`` if it is not there."""
-        self._known.append(key)
+        if key not in self._known:
+            self._known.append(key)
         return self._values.get(key, otherwise)
 
     def need(self, key: str) -> Any:

@@ -29,6 +29,12 @@ DEFAULT_STEP = 1e-4
 """Step of roughness that squeezes the contact spring [m]; insertion gain does not depend on it."""
 
 
+def measured_curves(design: "TrackDesign") -> dict[str, StiffnessCurve | LossFactorCurve]:
+    """Return what a design has as measured over frequency (dict of curves), by field."""
+    values = {each.name: getattr(design, each.name) for each in dataclasses.fields(design)}
+    return {name: each for name, each in values.items() if isinstance(each, StiffnessCurve | LossFactorCurve)}
+
+
 @dataclass(frozen=True, kw_only=True)
 class TrackDesign:
     """One wheel on one rail on a row of equal supports on rigid ground.

@@ -177,6 +177,7 @@ def changed(old, new):
         (changed("version = 1", "version = '1'"), "version: '1': give 1"),
         (changed("version = 1\n", ""), "version: it is missing"),
         (changed("version = 1\n", "version = 1\nauthor = 'x'\n"), "author: there is no such key; known are"),
+        (changed("version = 1\n", "version = 1\nzzz = 'x'\n"), "view, specification, source, pinned, name,"),
         (changed("fastener_spacing_m", "fastener_spacing"), "write 'fastener_spacing_m'"),
         (changed("summation", "sumation"), "view.sumation: there is no such key; write 'summation'"),
         (changed('"coherent"', '"loud"'), "view.summation: 'loud': give 'energy' or 'coherent'"),
