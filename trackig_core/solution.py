@@ -9,7 +9,7 @@ import html
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from trackig_core.bands import chosen_bands
+from trackig_core.bands import BAND_LABELS, chosen_bands
 from trackig_core.levels.insertion_gain import insertion_gain
 from trackig_core.track.design import measured_curves
 
