@@ -133,8 +133,8 @@ def test_kernel_against_multiply_adds(tell, remark):
     grid, low = make_grid(DESIGN), low_pass(1 / 131072)
     state, constants = at_rest(DESIGN, grid, comb=low.comb, comb_factor=low.comb_factor)
     rows = np.empty((512, Layout(grid).columns(3)))
-    kernels.advance(*state, *constants, 0, rows)
-    seconds = fastest(kernels.advance, *state, *constants, 0, rows, rounds=30) / 512 / low.comb_factor
+    kernels.advance(*state, *constants, rows)
+    seconds = fastest(kernels.advance, *state, *constants, rows, rounds=30) / 512 / low.comb_factor
     filter_flops = 2 * low.comb.size / low.comb_factor
     step = grid.half_bays * (FLOPS_PER_BAY + filter_flops) / seconds / 1e9
     numbers = np.ones(96)
