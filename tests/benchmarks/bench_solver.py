@@ -28,7 +28,7 @@ PRESETS = list(tig.PRESETS)
 DESIGN = tig.PRESETS["booted-block-low-mass"]
 LIGHT = tig.PRESETS["booted-sleeper"].replace(pad_loss_factor=0.01, boot_loss_factor=0.01)
 
-FLOPS_PER_BAY = 3 * 9 + 40
+FLOPS_PER_BAY = 3 * 10 + 34
 """Additions and multiplications per bay and time step of a two-stage track: three elements, one support."""
 
 

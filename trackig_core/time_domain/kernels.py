@@ -115,6 +115,7 @@ def advance(
     per_bay = rail_velocity.size // (bays * LANES)
     per_element, per_block = time_step / element_mass, time_step / block_mass
     state, rows = supports.reshape(supports.size), window.reshape(window.size)
+    kept_rows = record.reshape(record.size)
     for kept in range(record.shape[0]):
         for since in range(factor):
             row = since * columns
@@ -124,12 +125,13 @@ def advance(
             wheel[1] -= time_step * contact / wheel_mass
             wheel[0] += time_step * wheel[1]
             sweep(
-                rail, rail_velocity, state, rows, row, bays, per_bay, per_element * contact, time_step, bending, per_element,
-                per_block, pad_stiffness, pad_decay, pad_gain, boot_stiffness, boot_decay, boot_gain,
-                two_stage,
+                rail, rail_velocity, state, rows, row, bays, per_bay, per_element * contact, time_step,
+                bending, per_element, per_block, pad_stiffness, pad_decay, pad_gain, boot_stiffness,
+                boot_decay, boot_gain, two_stage,
             )  # fmt: skip
         sum_up(rows, columns, factor, window.shape[0] - factor - 1, taps)
-        record[kept] = window[factor]
+        for column in range(0, columns, WIDTH):
+            store(kept_rows, kept * columns + column, load(rows, factor * columns + column))
 
 
 @njit(nogil=True, cache=True)

@@ -55,6 +55,8 @@ class Layout:
         self.bays = -(-grid.half_bays // LANES)
         self.elements = self.bays * grid.elements_per_bay
         self.slots = self.bays * LANES
+        stretch, row = np.divmod(np.arange(grid.half_bays), self.bays)
+        self._order = row * LANES + stretch
 
     def rail_place(self, element: int) -> int:
         """Return where an element lies in the rail's displacements, ghosts included.
@@ -95,8 +97,7 @@ class Layout:
         ordered : numpy.ndarray (rows, half_bays + probes)
             Filled.
         """
-        forces = rows[:, : self.slots].reshape(-1, self.bays, LANES).swapaxes(1, 2).reshape(-1, self.slots)
-        ordered[:, : self._half_bays] = forces[:, : self._half_bays]
+        ordered[:, : self._half_bays] = rows[:, self._order]
         ordered[:, self._half_bays :] = rows[:, self.slots : self.slots + ordered.shape[1] - self._half_bays]
 
 

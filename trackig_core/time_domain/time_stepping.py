@@ -62,12 +62,17 @@ class Decay:
             The latest part of the record [N].
         """
         window = max(1, round(DECAY_WINDOW * RECORD_RATE))
-        self._peak = max(self._peak, float(np.abs(forces).max()))
-        return bool(np.abs(forces[-window:]).max() <= DECAY * self._peak)
+        self._peak = max(self._peak, _largest(forces))
+        return _largest(forces[-window:]) <= DECAY * self._peak
 
     def more(self, steps_done: int) -> int:
         """Return how many steps a record that may not end is made longer by."""
         return steps_done
+
+
+def _largest(forces: RealArray) -> float:
+    """Return the largest magnitude, without an array of all magnitudes."""
+    return max(float(forces.max()), -float(forces.min()))
 
 
 def simulate(
@@ -376,5 +381,5 @@ class Run:
         kernels.advance(*arguments)
         self.steps_done += count * self.filter.steps_per_sample
         kernels.decimate(rows, self.filter.taps, self.filter.factor, self._kept[:count])
-        self._rows[:tail] = rows[-tail:].copy()
+        self._rows[:tail] = rows[-tail:]
         self._layout.put_in_order(self._kept[:count], samples)

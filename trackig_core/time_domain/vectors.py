@@ -1,4 +1,4 @@
-"""Vectors of doubles in compiled code: a row of lanes is one value that a kernel loads, computes with and stores.
+"""Vectors of doubles in compiled code: a kernel loads, computes with and stores a row of lanes as one value.
 
 Left to itself the compiler vectorises only short loops over few arrays: a loop that touches all that a
 bay of track consists of, it leaves scalar. With vectors as values, one sweep along the track reads
@@ -11,7 +11,7 @@ NumPy arrays take the part of vectors.
 
 import operator
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 from llvmlite import ir
 from numba import types
@@ -26,22 +26,25 @@ _INTEGER = ir.IntType(32)
 _BYTES_PER_DOUBLE = 8
 
 
-class Vector(types.Type):
+Vector: TypeAlias = Any
+"""A vector, in annotations: a value of Numba's in compiled code, a slice of an array in the interpreter."""
+
+
+class VectorType(types.Type):
     """Numba's type of a vector of :data:`WIDTH` doubles."""
 
-    def __init__(self) -> None:
-        super().__init__(name=f"Vector({WIDTH})")
+
+VECTOR: Any = VectorType(f"vector of {WIDTH}")
+
+_in_compiled_code: Callable[[Callable[..., Any]], Any] = intrinsic
 
 
-VECTOR = Vector()
-
-
-@register_model(Vector)
+@register_model(VectorType)
 class _VectorModel(models.PrimitiveModel):
     """A vector is held in registers, as LLVM's own vector."""
 
-    def __init__(self, manager: Any, kind: Vector) -> None:
-        super().__init__(manager, kind, _VECTOR)
+    def __init__(self, manager: Any, kind: VectorType) -> None:
+        super().__init__(manager, kind, _VECTOR)  # type: ignore[no-untyped-call]
 
 
 def _pointer(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -49,9 +52,9 @@ def _pointer(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return builder.bitcast(builder.gep(array.data, [arguments[1]]), _VECTOR.as_pointer())
 
 
-@intrinsic
-def load(typing: Any, array: Any, place: Any) -> Any:
-    """Return the vector that begins at a place of a contiguous, one-dimensional array (no bounds are checked)."""
+@_in_compiled_code
+def load(_typing: Any, array: Any, place: Any) -> Any:
+    """Return the vector that begins at a place of a contiguous array; no bounds are checked."""
 
     def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         vector = builder.load(_pointer(context, builder, signature, arguments))
@@ -61,9 +64,9 @@ def load(typing: Any, array: Any, place: Any) -> Any:
     return VECTOR(array, types.intp), code
 
 
-@intrinsic
-def store(typing: Any, array: Any, place: Any, vector: Any) -> Any:
-    """Store a vector from a place of a contiguous, one-dimensional array on (no bounds are checked)."""
+@_in_compiled_code
+def store(_typing: Any, array: Any, place: Any, vector: Any) -> Any:
+    """Store a vector from a place of a contiguous array on; no bounds are checked."""
 
     def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         stored = builder.store(arguments[2], _pointer(context, builder, signature, arguments))
@@ -73,42 +76,42 @@ def store(typing: Any, array: Any, place: Any, vector: Any) -> Any:
     return types.none(array, types.intp, VECTOR), code
 
 
-@intrinsic
-def spread(typing: Any, number: Any) -> Any:
+@_in_compiled_code
+def spread(_typing: Any, number: Any) -> Any:
     """Return a vector all of whose lanes hold one number."""
 
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
         return _rearranged(builder, _replaced(builder, _NOTHING, arguments[0], 0), [0] * WIDTH)
 
     return VECTOR(types.float64), code
 
 
-@intrinsic
-def first_lane(typing: Any, number: Any) -> Any:
+@_in_compiled_code
+def first_lane(_typing: Any, number: Any) -> Any:
     """Return a vector whose first lane holds a number, and the others zero."""
 
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
         return _replaced(builder, _NOTHING, arguments[0], 0)
 
     return VECTOR(types.float64), code
 
 
-@intrinsic
-def one_lane_up(typing: Any, vector: Any, number: Any) -> Any:
+@_in_compiled_code
+def one_lane_up(_typing: Any, vector: Any, number: Any) -> Any:
     """Return a vector moved by one lane: what stood in lane 0 stands in lane 1, and a number in lane 0."""
 
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
         moved = _rearranged(builder, arguments[0], [0, *range(WIDTH - 1)])
         return _replaced(builder, moved, arguments[1], 0)
 
     return VECTOR(VECTOR, types.float64), code
 
 
-@intrinsic
-def one_lane_down(typing: Any, vector: Any, number: Any) -> Any:
+@_in_compiled_code
+def one_lane_down(_typing: Any, vector: Any, number: Any) -> Any:
     """Return a vector moved by one lane: what stood in lane 1 stands in lane 0, and a number in the last."""
 
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
         moved = _rearranged(builder, arguments[0], [*range(1, WIDTH), 0])
         return _replaced(builder, moved, arguments[1], WIDTH - 1)
 
@@ -128,9 +131,9 @@ def _replaced(builder: Any, vector: Any, number: Any, lane: int) -> Any:
 def _between_vectors(operation: Callable[[Any, Any], Any], instruction: str) -> None:
     """Let compiled code apply an operator to two vectors."""
 
-    @intrinsic
-    def compute(typing: Any, left: Any, right: Any) -> Any:
-        def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    @_in_compiled_code
+    def compute(_typing: Any, left: Any, right: Any) -> Any:
+        def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
             return getattr(builder, instruction)(*arguments)
 
         return VECTOR(VECTOR, VECTOR), code
@@ -140,7 +143,8 @@ def _between_vectors(operation: Callable[[Any, Any], Any], instruction: str) -> 
         def implementation(left: Any, right: Any) -> Any:
             return compute(left, right)
 
-        return implementation if isinstance(left, Vector) and isinstance(right, Vector) else None
+        both = isinstance(left, VectorType) and isinstance(right, VectorType)
+        return implementation if both else None
 
 
 _between_vectors(operator.add, "fadd")
