@@ -261,7 +261,9 @@ boot_stiffness, boot_decay, boot_gain, two_stage
             place += LANES
 
 
-@njit(nogil=True, cache=True, fastmath={"contract"})
+# Not cached itself, only within those that call it: a signature of vectors, read back by another version
+# of their type, would end in an error.
+@njit(nogil=True, fastmath={"contract"})
 def viscoelastic_force(
     memory: RealArray,
     place: int,
