@@ -1,8 +1,8 @@
 """The page that is sent before there is a session: a session begins when a browser asks for its document.
 
 What the page's HTML holds is the same for every visitor but for a token, so it is made once, when the server
-starts. Bokeh would make a whole session for every request of the page, and keep it for a while: link previews,
-health checks and tabs that are closed at once would each cost what a reader costs.
+starts. Bokeh would make a whole session for every request of the page, and keep it for a while: link
+previews, health checks and tabs that are closed at once would each cost what a reader costs.
 """
 
 from types import SimpleNamespace

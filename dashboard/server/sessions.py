@@ -66,8 +66,8 @@ def full_page():
 def forget(document):
     """Let go of a session that is over.
 
-    Panel notes the area of notifications among its views when a session is made, and takes it out again for no
-    session; with it the whole page would be kept wherever no browser had asked for the document.
+    Panel notes the area of notifications among its views when a session is made, and takes it out again for
+    no session; with it the whole page would be kept wherever no browser had asked for the document.
 
     Parameters
     ----------
