@@ -16,6 +16,8 @@ from panel.io.server import DocHandler, server_html_page_for_session
 from panel.io.session import generate_session
 from tornado.web import authenticated
 
+from dashboard.server import sessions
+
 _PLACE = "the-token-of-the-visitor"
 """What stands in a page where the token belongs."""
 
@@ -86,6 +88,7 @@ def prepare(application_context, title):
         failure at start is not everybody's page.
     """
     document = generate_session(application_context.application).document
+    sessions.leave(document)
     if document.title == title:
         _samples[application_context] = document
     else:

@@ -45,7 +45,7 @@ def admit(document):
     Parameters
     ----------
     document : bokeh.document.Document
-        The session's document; it counts until it is handed to :func:`forget`.
+        The session's document; it counts until it is handed to :func:`leave` or :func:`forget`.
 
     Returns
     -------
@@ -63,6 +63,11 @@ def full_page():
     return pn.pane.Markdown(FULL.format(count=count()))
 
 
+def leave(document):
+    """Count a session no longer."""
+    _open.discard(id(document))
+
+
 def forget(document):
     """Let go of a session that is over.
 
@@ -74,7 +79,7 @@ def forget(document):
     document : bokeh.document.Document
         The session's document.
     """
-    _open.discard(id(document))
+    leave(document)
     for reference, (_, _, owner, _) in list(state._views.items()):
         if owner is document:
             del state._views[reference]
