@@ -95,7 +95,7 @@ class Acceptor(threading.Thread):
             begun = b""
         if not begun:
             self._close(connection)
-        elif any(begun.startswith(each) and begun[len(each) :] in (b" ", b"?") for each in self._questions):
+        elif any(begun.startswith(each) and begun[len(each) :][:1] in (b" ", b"?") for each in self._questions):
             self._answer(connection, begun.startswith(b"HEAD"))
         elif not any(each.startswith(begun) for each in self._questions):
             _, address = self._silent.pop(connection)
