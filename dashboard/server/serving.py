@@ -6,6 +6,7 @@ which a proxy in front can give, whoever listens on the network reads the passwo
 
 import contextlib
 import json
+import logging
 import os
 import sys
 import time
@@ -47,8 +48,23 @@ LONGEST_REQUEST = 60.0
 """Time that a request's body may take [s]."""
 
 
+EXPECTED = ("PULL-DOC-REQ", "PATCH-DOC", "SERVER-INFO-REQ")
+"""Messages that a page sends; Bokeh would also take a document that replaces the session's."""
+
+MOST_FAULTS = 20
+"""Messages that cannot be followed after which a connection is closed."""
+
+LONGEST_LOGGED = 500
+"""Characters of a message that are logged."""
+
+
 class SocketHandler(WSHandler):
-    """Refuses pages of other hosts with the advice that fits ``trackig serve``."""
+    """Refuses pages of other hosts with the advice that fits ``trackig serve``, and bounds what a page may ask.
+
+    Whoever sends what cannot be followed is told so without the server's traceback, and is cut off in the end.
+    """
+
+    _faults = 0
 
     def check_origin(self, origin):
         """Return whether pages of an origin may open a socket."""
@@ -59,6 +75,28 @@ class SocketHandler(WSHandler):
         shown = "".join(each for each in host[:200] if each.isalnum() or each in ".:-[]")
         _say(f"a page of {shown or 'no host'} was refused; if it is yours, add --allow-origin {shown}")
         return False
+
+    async def _handle(self, message):
+        if message.msgtype not in EXPECTED:
+            self._protocol_error(f"{message.msgtype[:40]} is nothing that a page sends")
+            return None
+        return await super()._handle(message)
+
+    async def send_message(self, message):
+        """Send a message; one that says that something failed counts."""
+        if message.msgtype == "ERROR":
+            message.content["traceback"] = None
+            self._faults += 1
+        await super().send_message(message)
+        if self._faults > MOST_FAULTS:
+            self._protocol_error("too many messages that cannot be followed")
+
+
+def shorten(record):
+    """Cut what is logged of a message (a filter of log records)."""
+    if isinstance(record.args, tuple):
+        record.args = tuple(repr(each)[:LONGEST_LOGGED] for each in record.args)
+    return True
 
 
 class HealthHandler(tornado.web.RequestHandler):
@@ -119,6 +157,8 @@ def run(site, listeners, shares, number, secret, announce):
             }
         )
 
+    for name in ("bokeh.server.protocol_handler", "bokeh.server.views.ws"):
+        logging.getLogger(name).addFilter(shorten)
     loop = IOLoop.current()
     http, server = _server(site, secret, health, loop)
 
