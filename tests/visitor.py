@@ -75,6 +75,14 @@ class Visitor:
         """Return the identity of the model of a name."""
         return next(key for key, model in self.models.items() if model["attributes"].get("name") == name)
 
+    def component(self, attribute):
+        """Return the identity of the component of ours whose script knows an attribute."""
+        for key, model in self.models.items():
+            data = model["attributes"].get("data")
+            if isinstance(data, dict) and attribute in data.get("attributes", {}):
+                return key
+        raise LookupError(attribute)
+
     async def patch(self, *events):
         """Send changes of the document."""
         await self.send("PATCH-DOC", {"events": list(events)})
@@ -118,10 +126,9 @@ class Visitor:
         )
         if slider is not None:
             return changed(slider, "value", value)
-        panel = next(key for key, model in self.models.items() if "Quantities" in model["name"])
         self._count += 1
         message = {"kind": "set", "number": self._count, "values": {"boot_stiffness": value}}
-        return told(panel, message)
+        return told(self.component("feasible"), message)
 
     async def picture(self, timeout=60):
         """Wait for the next insertion gain, and return how long that took [s]."""
