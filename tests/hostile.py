@@ -3,7 +3,18 @@
 import json
 import random
 
-STRINGS = ("", "\x00", "~" * 50, "<img src=x onerror=alert(1)>", "NaN", "1e999", "-1", "\ud7ff", "é" * 2000, "x" * 70_000)
+STRINGS = (
+    "",
+    "\x00",
+    "~" * 50,
+    "<img src=x onerror=alert(1)>",
+    "NaN",
+    "1e999",
+    "-1",
+    "\ud7ff",
+    "é" * 2000,
+    "x" * 70_000,
+)
 
 
 def value(chance, depth=0):
@@ -19,7 +30,9 @@ def value(chance, depth=0):
         case 3:
             return deep(chance.randrange(1, 400))
         case 4:
-            return {"type": chance.choice(("map", "ndarray", "bytes", "ref", "object", "set", "slice", "symbol"))}
+            return {
+                "type": chance.choice(("map", "ndarray", "bytes", "ref", "object", "set", "slice", "symbol"))
+            }
         case 5:
             return {"id": f"p{chance.randrange(9999)}"}
         case 6:
@@ -68,7 +81,14 @@ def events(chance, models):
     for _ in range(chance.randrange(1, 4)):
         model = chance.choice([*models, "p999999"])
         attributes = [*models.get(model, {}).get("attributes", {}), "no_such_attribute"]
-        kinds = ("ModelChanged", "MessageSent", "ColumnDataChanged", "ColumnsStreamed", "RootAdded", "NoSuchKind")
+        kinds = (
+            "ModelChanged",
+            "MessageSent",
+            "ColumnDataChanged",
+            "ColumnsStreamed",
+            "RootAdded",
+            "NoSuchKind",
+        )
         event = {
             "kind": chance.choice(kinds),
             "model": {"id": model},
@@ -90,7 +110,10 @@ def events(chance, models):
 
 def frames(chance, models):
     """Return the frames of one message, well-formed as the protocol goes or not."""
-    header = {"msgid": "1", "msgtype": chance.choice(("PATCH-DOC", "PATCH-DOC", "PATCH-DOC", "PUSH-DOC", "ACK", "NONE"))}
+    header = {
+        "msgid": "1",
+        "msgtype": chance.choice(("PATCH-DOC", "PATCH-DOC", "PATCH-DOC", "PUSH-DOC", "ACK", "NONE")),
+    }
     content = {"events": events(chance, models)}
     parts = [json.dumps(header), "{}", json.dumps(content)]
     if chance.random() < 0.2:

@@ -113,7 +113,9 @@ class Visitor:
     async def _frame(self):
         frame = await self.socket.read_message()
         if frame is None:
-            raise ConnectionError(f"closed by the server: {self.socket.close_code} {self.socket.close_reason}")
+            raise ConnectionError(
+                f"closed by the server: {self.socket.close_code} {self.socket.close_reason}"
+            )
         return json.loads(frame)
 
     async def move(self, value):

@@ -1,7 +1,7 @@
 """Takes connections up on a thread of its own, and answers there whether the server is alive.
 
-``/health`` answers while the event loop makes a page. Among several processes a connection goes to one that has
-no more sessions than the others.
+``/health`` answers while the event loop makes a page. Among several processes a connection goes to one that
+has no more to do than the others.
 """
 
 import contextlib
@@ -95,7 +95,9 @@ class Acceptor(threading.Thread):
             begun = b""
         if not begun:
             self._close(connection)
-        elif any(begun.startswith(each) and begun[len(each) :][:1] in (b" ", b"?") for each in self._questions):
+        elif any(
+            begun.startswith(each) and begun[len(each) :][:1] in (b" ", b"?") for each in self._questions
+        ):
             self._answer(connection, begun.startswith(b"HEAD"))
         elif not any(each.startswith(begun) for each in self._questions):
             _, address = self._silent.pop(connection)

@@ -182,7 +182,9 @@ def _refusal(address, port, error):
         case errno.EADDRINUSE:
             return f"port {port} is in use: stop what is served there, or give another with --port"
         case errno.EADDRNOTAVAIL:
-            return f"--address {address}: this machine has no such address; leave it out, or give one of its own"
+            return (
+                f"--address {address}: this machine has no such address; leave it out, or give one of its own"
+            )
         case errno.EACCES:
             return f"port {port} needs rights that you do not have: give another with --port, such as {PORT}"
     return f"{address}, port {port}: {error.strerror}"

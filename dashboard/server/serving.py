@@ -1,7 +1,7 @@
 """The server of one process: Bokeh's, with connections from :class:`Acceptor`, a login, and words that fit.
 
-The login is Panel's: a name, which is not checked, and one password for all. It keeps passers-by out; without TLS,
-which a proxy in front can give, whoever listens on the network reads the password.
+The login is Panel's: a name, which is not checked, and one password for all. It keeps passers-by out; without
+TLS, which a proxy in front can give, whoever listens on the network reads the password.
 """
 
 import contextlib
@@ -59,9 +59,9 @@ LONGEST_LOGGED = 500
 
 
 class SocketHandler(WSHandler):
-    """Refuses pages of other hosts with the advice that fits ``trackig serve``, and bounds what a page may ask.
+    """Refuses pages of other hosts with advice that fits ``trackig serve``, and bounds what a page may ask.
 
-    Whoever sends what cannot be followed is told so without the server's traceback, and is cut off in the end.
+    Whoever sends what cannot be followed is told so without the server's traceback, and cut off in the end.
     """
 
     _faults = 0
@@ -95,8 +95,13 @@ class SocketHandler(WSHandler):
 def shorten(record):
     """Cut what is logged of a message (a filter of log records)."""
     if isinstance(record.args, tuple):
-        record.args = tuple(repr(each)[:LONGEST_LOGGED] for each in record.args)
+        record.args = tuple(map(_short, record.args))
     return True
+
+
+def _short(value):
+    text = repr(value)
+    return value if len(text) <= LONGEST_LOGGED else f"{text[:LONGEST_LOGGED]}…"
 
 
 class HealthHandler(tornado.web.RequestHandler):

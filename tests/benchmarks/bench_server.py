@@ -1,7 +1,7 @@
-"""A workshop: fairness, memory, nonsense and a crash, with raw WebSocket clients and one real browser, on loopback.
+"""A workshop: fairness, memory, nonsense, a crash; raw WebSocket clients and a browser, on loopback.
 
-Run with ``python -m pip install -e ".[dev]"`` and ``pytest -n 0 tests/benchmarks/bench_server.py``; it takes half an
-hour at full size. ``TRACKIG_BENCH_SCALE=0.1`` takes a tenth of the sessions and messages.
+Run with ``python -m pip install -e ".[dev]"`` and ``pytest -n 0 tests/benchmarks/bench_server.py``; it takes half
+an hour at full size. ``TRACKIG_BENCH_SCALE=0.1`` takes a tenth of the sessions and messages.
 """
 
 import asyncio
@@ -59,6 +59,7 @@ async def drag_politely(visitor, waits):
 
 async def drag_whatever_comes(visitor, waits):
     """Move ten times a second; a wait is from a picture, or the first move after it, to the next picture."""
+
     async def move():
         chance, end = np.random.default_rng(id(visitor)), time.monotonic() + SECONDS
         while time.monotonic() < end:

@@ -56,7 +56,9 @@ def serving(folder, *words):
     command = [sys.executable, "-m", "dashboard.cli", "serve", "--port", str(port), *words]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with log.open("w") as output:
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=output, stderr=subprocess.STDOUT)
+        process = subprocess.Popen(
+            command, cwd=folder, env=environment, stdout=output, stderr=subprocess.STDOUT
+        )
     try:
         deadline = time.monotonic() + START_LIMIT
         while "serving at" not in log.read_text():

@@ -75,7 +75,9 @@ def test_a_question_for_the_head_alone_gets_no_body(door):
     assert answer.endswith(b"\r\n\r\n")
 
 
-@pytest.mark.parametrize("data", [b"GET /tools/dashboard HTTP/1.1\r\n", b"GET /tools/healthy", b"\x16\x03\x01"])
+@pytest.mark.parametrize(
+    "data", [b"GET /tools/dashboard HTTP/1.1\r\n", b"GET /tools/healthy", b"\x16\x03\x01"]
+)
 def test_whatever_else_is_asked_is_handed_on_unread(door, data):
     opened = door()
     with opened.knock(data) as knocking:
