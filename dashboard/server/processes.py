@@ -1,7 +1,7 @@
 """One process that serves, or several that share visitors out among themselves.
 
-A session lives in the process that its socket reached; nothing else needs to be there, since the page that is
-sent before belongs to no session, links hold what they open, and studies are kept by the browser. So processes
+A session lives in the process that its socket reached; nothing else needs to be there: the page that is sent
+before belongs to no session, links hold what they open, and studies are kept by the browser. So processes
 share the sockets that they listen at, the secret that signs cookies, and how many sessions each has.
 
 One that dies is replaced. Its pages load themselves again, and come back to what they showed.

@@ -1,7 +1,7 @@
 """A workshop: fairness, memory, nonsense, a crash; raw WebSocket clients and a browser, on loopback.
 
-Run with ``python -m pip install -e ".[dev]"`` and ``pytest -n 0 tests/benchmarks/bench_server.py``; it takes half
-an hour at full size. ``TRACKIG_BENCH_SCALE=0.1`` takes a tenth of the sessions and messages.
+Run with ``python -m pip install -e ".[dev]"`` and ``pytest -n 0 tests/benchmarks/bench_server.py``; at full
+size it takes half an hour. ``TRACKIG_BENCH_SCALE=0.1`` takes a tenth of the sessions and messages.
 """
 
 import asyncio
