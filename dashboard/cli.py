@@ -21,6 +21,7 @@ from pathlib import Path
 
 import trackig_core as tig
 from dashboard import cli_decide, formats
+from dashboard.server.command import ServeError, add_arguments, serve
 from dashboard.session.pins import base_design, shown_designs
 from dashboard.session.results import SolutionSummary
 from trackig_core.levels import band_tables
@@ -42,9 +43,6 @@ PAGES = (".html", ".htm")
 
 LIMITS = ("insertion-gain", "insertion-loss")
 """What the limits of a specification may be."""
-
-PORT = 5006
-"""Where the dashboard is served unless another port is given [-]."""
 
 USER_ERRORS = (
     tig.BandTableError,
@@ -206,8 +204,7 @@ def _add_report(commands):
 
 def _add_serve(commands):
     command = _add(commands, "serve", _serve, help="Serve the dashboard until stopped by Ctrl+C.")
-    command.add_argument("--port", type=_port, default=PORT, help=f"1 to 65535, {PORT} unless given")
-    command.add_argument("--show", action="store_true", help="open the dashboard in a browser")
+    add_arguments(command, _count, _port)
 
 
 def _add_fidelity(command):
@@ -230,6 +227,13 @@ def _fields_help():
     lines.append(f"  {'rail':18} {', '.join(tig.RAILS)}")
     lines.append("'none' for block_mass, boot_stiffness and boot_loss_factor makes a single-stage track")
     return "\n".join(lines)
+
+
+def _count(text):
+    number = int(text) if text.isascii() and text.isdecimal() and len(text) <= 4 else 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text}: give a whole number of one or more")
+    return number
 
 
 def _port(text):
@@ -383,16 +387,10 @@ def _summary(design, fidelity):
 
 
 def _serve(options):
-    # the server is slow to load, and no other command needs it
-    from panel.command import main as panel
-
-    address = f"http://localhost:{options.port}/{Path(__file__).parent.name}"
-    sys.stdout.write(f"trackig: serving at {address}; press Ctrl+C to stop\n")
-    sys.stdout.flush()
-    # Panel reads the words of its command from the process
-    sys.argv = ["panel", "serve", str(Path(__file__).parent), "--port", str(options.port)]
-    sys.argv += ["--show"] if options.show else []
-    panel()
+    try:
+        serve(options)
+    except ServeError as error:
+        raise CommandError(str(error)) from None
     return 0
 
 
