@@ -398,7 +398,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     background: var(--panel-background-color);
 }}
 select {{
-    appearance: none; width: 100%; height: 38px; padding: 0 28px 0 10px; border: 1px solid var(--line);
+    appearance: none; box-sizing: border-box; width: 100%; height: 38px; padding: 0 28px 0 10px; border: 1px solid var(--line);
     border-radius: 4px; background: no-repeat linear-gradient(45deg, transparent 50%, currentColor 50%),
         no-repeat linear-gradient(135deg, currentColor 50%, transparent 50%);
     background-position: right 14px center, right 8px center; background-size: 6px 6px; cursor: pointer;
@@ -414,16 +414,16 @@ option {{ color: var(--ink); background: var(--panel-background-color); }}
 .back:hover {{ background: color-mix(in srgb, var(--accent) 10%, transparent); }}
 .back:disabled {{ color: var(--ink); opacity: 0.35; cursor: default; background: none; }}
 .switch {{ display: flex; align-items: center; gap: 8px; margin: 4px 0 2px 0; font-size: 16px; cursor: pointer; }}
-.switch input {{
+.switch input[role] {{
     appearance: none; flex: none; position: relative; width: 32px; height: 16px; margin: 0; border-radius: 8px;
     background: {PRESET_GHOST}; cursor: pointer; transition: background 0.15s;
 }}
-.switch input::before {{
+.switch input[role]::before {{
     content: ""; position: absolute; top: 2px; left: 2px; width: 12px; height: 12px; border-radius: 50%;
     background: white; transition: left 0.15s;
 }}
-.switch input:checked {{ background: var(--accent); }}
-.switch input:checked::before {{ left: 18px; }}
+.switch input[role]:checked {{ background: var(--accent); }}
+.switch input[role]:checked::before {{ left: 18px; }}
 """
 """Where a design complies is told by colour, by hatching, and by the marks at the edges."""
 
