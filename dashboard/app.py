@@ -9,12 +9,16 @@ from functools import partial
 import panel as pn
 import panel_material_ui as pmui
 import param
+from bokeh.document import Document
+from panel.io.document import _cleanup_doc
+from panel.io.state import set_curdoc
 from panel.util import edit_readonly
 
 from dashboard import theme
 from dashboard.client.browser import Browser
 from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
+from dashboard.compute.document import in_turns
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
@@ -38,9 +42,6 @@ from dashboard.views.verify import Verify
 
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
-
-OPENING = '<div role="status">Opening …</div>'
-"""What a tab holds before it is first looked at."""
 
 CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
 
@@ -101,9 +102,30 @@ def build(store=None, live_store=None):
         Method: Method,
         SaveAndShare: partial(SaveAndShare, snapshot, exchange),
     }
-    status = Status(outcome, runner.stop, runner.request)
-    sidebar = [DesignBar(inputs, pins, browser), Controls(inputs, outcome)]
-    return page(sidebar, status, tabs(snapshot, makers, exchange), browser, exchange)
+    bar_place = pn.Column(sizing_mode="stretch_width", min_height=theme.DESIGN_BAR_HEIGHT, margin=0)
+    status_place = pn.Column(sizing_mode="stretch_width", min_height=theme.STATUS_HEIGHT, margin=(4, 8, 0, 8))
+    bar = partial(DesignBar, inputs, pins, browser)
+    status = partial(Status, outcome, runner.stop, runner.request)
+    # the bar first: it counts the steps that can be undone
+    in_turns(put(exchange, {bar_place: bar, status_place: status}))
+    shown = tabs(snapshot, makers, exchange)
+    return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
+
+
+def put(exchange, parts):
+    """Make parts in their places, one at a time, and prepare the browser for each.
+
+    Parameters
+    ----------
+    exchange : Exchange
+        Prepares the browser.
+    parts : mapping of panel.Column to callable
+        How each part is made, by its place.
+    """
+    for place, make in parts.items():
+        place.objects = [make()]
+        exchange.introduce()
+        yield
 
 
 TABS = (Explore, Compare, SpecificationView, ReceivedLevel, Track, Learn, Verify, Method, SaveAndShare)
@@ -124,28 +146,30 @@ def tabs(snapshot, makers, exchange):
     exchange : Exchange
         Prepares the browser for what is added.
     """
-    places = [
-        pn.Column(
-            pn.pane.HTML(OPENING, stylesheets=[theme.OPENING_CSS]), sizing_mode="stretch_width", margin=0
-        )
-        for _ in TABS
-    ]
+    places = [pn.Column(stylesheets=[theme.OPENING_CSS], sizing_mode="stretch_width", margin=0) for _ in TABS]
     titled = zip((tab.title for tab in TABS), places, strict=True)
     shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0)
-    views = {}
+    # Panel makes a pane of each title that is plain text, and shows none of them
+    shown._headers = []
+    views, begun = {}, set()
 
     def look(*_):
         kind = TABS[shown.active]
         snapshot.tab = kind.link_name
-        new = kind not in views
-        if new:
-            views[kind] = makers[kind]()
         for each, view in views.items():
             view.look(each is kind)
-        # last, since not all widgets can change before the browser has drawn them
-        if new:
-            places[shown.active].objects = [views[kind]]
+        if kind not in begun:
+            begun.add(kind)
+            in_turns(open_view(kind, places[shown.active]))
+
+    def open_view(kind, place):
+        view = views[kind] = makers[kind]()
+        view.look(kind is TABS[shown.active])
+        yield
+        place.stylesheets = []
+        for _ in view.fill(place):
             exchange.introduce()
+            yield
 
     def open_tab(*_):
         shown.active = [tab.link_name for tab in TABS].index(snapshot.tab)
@@ -185,6 +209,15 @@ def page(sidebar, status, main, browser, exchange):
     with edit_readonly(whole):
         whole.busy = Busy().param.value
     return whole
+
+
+def rehearse():
+    """Make a page and throw it away, so that the first session finds classes, models and scripts prepared."""
+    document = Document()
+    with set_curdoc(document):
+        build().server_doc(document, location=False)
+        document.to_json()
+    _cleanup_doc(document)
 
 
 def report_error(error):

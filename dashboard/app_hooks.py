@@ -10,6 +10,7 @@ from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
+from dashboard.app import rehearse
 from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
@@ -25,8 +26,13 @@ def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     overlays.load()
     # what is imported stays: looking through it for garbage would stop every session for 0.1 s now and then
     gc.freeze()
-    for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
+    opening, *_ = [
         shared_store().request((tig.PRESETS[key], AT_REST))
+        for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET)
+    ]
+    # a page that is made of the opening picture asks for no other
+    loop = IOLoop.current()
+    opening.future.add_done_callback(lambda _: loop.add_callback(rehearse))
 
 
 def handle_exception(loop, context):

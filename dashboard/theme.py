@@ -138,6 +138,7 @@ LEFT_ALIGNED = {
 
 SIDEBAR_WIDTH = 330
 STATUS_HEIGHT = 32
+DESIGN_BAR_HEIGHT = 80
 FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
 """How pictures look that are those of the inputs, or of earlier ones."""
 
@@ -150,7 +151,7 @@ div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
 """
 OPENING_CSS = """
 :host { color: var(--panel-on-background-color); font-size: 15px; }
-div { margin: 12px; opacity: 0; animation: 0s 0.4s forwards late; }
+:host::before { content: "Opening …"; margin: 12px; opacity: 0; animation: 0s 0.4s forwards late; }
 @keyframes late { to { opacity: 1; } }
 """
 """What opens at once says nothing, so that nothing flickers."""
@@ -207,7 +208,20 @@ PLAYER_CSS = """
 
 PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
 PANEL = {"borderRadius": "8px", "height": "100%"}
-PANEL_TITLE = {"fontWeight": 700}
+PANEL_CSS = ":host { background: var(--panel-surface-color); border-radius: 8px; }"
+CAPTION_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+:host > div { display: flex; flex-wrap: wrap; align-items: baseline; column-gap: 10px; }
+h2 { margin: 0; font-size: 16px; font-weight: 700; line-height: 28px; letter-spacing: 0.009em; }
+p { margin: 0; font-size: 14px; line-height: 20px; }
+p:empty { display: none; }
+"""
+
+BESIDE_CSS = """
+:host { display: grid !important; grid-template-columns: minmax(0, 7fr) minmax(0, 5fr); gap: 8px; }
+@media (max-width: 1199px) { :host { grid-template-columns: minmax(0, 1fr); } }
+"""
+"""Two panels side by side, or below each other where there is no room."""
 
 
 def _figure_css(height):
@@ -301,7 +315,8 @@ button, input, select {{ font: inherit; color: inherit; }}
 :focus-visible {{ outline: 2px solid var(--accent); outline-offset: 2px; }}
 summary {{
     display: flex; justify-content: space-between; align-items: center;
-    margin-top: 10px; padding: 2px 0; font-size: 14px; font-weight: 700; letter-spacing: 0.02em; cursor: pointer;
+    margin-top: 10px; padding: 2px 0; font-size: 14px; font-weight: 700; letter-spacing: 0.02em;
+    cursor: pointer;
 }}
 summary::-webkit-details-marker {{ display: none; }}
 summary::after {{
@@ -362,7 +377,8 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
 .edges {{ grid-column: 1; position: relative; height: 20px; margin: 0 7px; }}
 .edge {{
     position: absolute; transform: translateX(-50%); padding: 0 5px; font-size: 13px; line-height: 17px;
-    border: 1px solid {COMPLIES}; border-radius: 9px; background: var(--panel-background-color); cursor: pointer;
+    border: 1px solid {COMPLIES}; border-radius: 9px; background: var(--panel-background-color);
+    cursor: pointer;
     font-variant-numeric: tabular-nums;
 }}
 .edge:hover {{ background: color-mix(in srgb, {COMPLIES} 25%, var(--panel-background-color)); }}
@@ -398,7 +414,8 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     background: var(--panel-background-color);
 }}
 select {{
-    appearance: none; box-sizing: border-box; width: 100%; height: 38px; padding: 0 28px 0 10px; border: 1px solid var(--line);
+    appearance: none; box-sizing: border-box; width: 100%; height: 38px; padding: 0 28px 0 10px;
+    border: 1px solid var(--line);
     border-radius: 4px; background: no-repeat linear-gradient(45deg, transparent 50%, currentColor 50%),
         no-repeat linear-gradient(135deg, currentColor 50%, transparent 50%);
     background-position: right 14px center, right 8px center; background-size: 6px 6px; cursor: pointer;
@@ -413,9 +430,11 @@ option {{ color: var(--ink); background: var(--panel-background-color); }}
 }}
 .back:hover {{ background: color-mix(in srgb, var(--accent) 10%, transparent); }}
 .back:disabled {{ color: var(--ink); opacity: 0.35; cursor: default; background: none; }}
-.switch {{ display: flex; align-items: center; gap: 8px; margin: 4px 0 2px 0; font-size: 16px; cursor: pointer; }}
+.switch {{ display: flex; align-items: center; gap: 8px; margin: 4px 0 2px 0; font-size: 16px; }}
+.switch {{ cursor: pointer; }}
 .switch input[role] {{
-    appearance: none; flex: none; position: relative; width: 32px; height: 16px; margin: 0; border-radius: 8px;
+    appearance: none; flex: none; position: relative; width: 32px; height: 16px; margin: 0;
+    border-radius: 8px;
     background: {PRESET_GHOST}; cursor: pointer; transition: background 0.15s;
 }}
 .switch input[role]::before {{

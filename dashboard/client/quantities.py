@@ -1,8 +1,8 @@
-"""The panel of quantities: one component for all that is set of a design, drawn and kept in step by the browser.
+"""The panel of quantities: one component for all that is set of a design, kept in step by the browser.
 
-What the user sets comes as one message of newest values at a time; the browser sends the next when it hears that
-the picture of the last one has been drawn, or was given up. So a hand that is faster than the server costs
-the server nothing.
+What the user sets comes as one message of newest values at a time; the browser sends the next when it hears
+that the picture of the last one has been drawn, or was given up. So a hand that is faster than the server
+costs the server nothing.
 """
 
 from pathlib import Path
@@ -22,8 +22,8 @@ class Quantities(Scripted):
     Attributes
     ----------
     on_set : callable
-        Called with the number of a message and what it sets: values by name, of whatever types somebody may
-        have sent; text where it was typed.
+        Called with the number of a message, what it sets, and the number of the user's gesture. Values come
+        by name, of whatever types somebody may have sent; text where it was typed.
     on_revert : callable
         Called without arguments when the way back to the chosen track is taken.
     on_chip : callable
@@ -53,8 +53,8 @@ class Quantities(Scripted):
     def handle_message(self, message):
         """Hand on what the user set or clicked; what fits no field asks for nothing."""
         match message:
-            case {"kind": "set", "number": int(number), "values": dict(values)}:
-                self.on_set(number, values)
+            case {"kind": "set", "number": int(number), "values": dict(values), "gesture": int(gesture)}:
+                self.on_set(number, values, gesture)
             case {"kind": "revert"}:
                 self.on_revert()
             case {"kind": "chip", "name": str(name)} if name in self.chips and self.on_chip is not None:

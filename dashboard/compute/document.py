@@ -72,6 +72,38 @@ def on_next_tick(document, change):
         document.add_next_tick_callback(partial(change, document))
 
 
+def in_turns(steps):
+    """Do work of the current session step by step, each step on a turn of its own once the page has loaded.
+
+    Between them the server does what other sessions wait for. Without a session, as in tests, all is done at
+    once.
+
+    Parameters
+    ----------
+    steps : iterator
+        Does a step whenever it is asked for the next item.
+    """
+    document = pn.state.curdoc
+    if document is None or document.session_context is None:
+        for _ in steps:
+            pass
+        return
+    begin = partial(document.add_next_tick_callback, partial(_take_turn, document, steps))
+    begin() if pn.state.loaded else pn.state.onload(begin)
+
+
+def _take_turn(document, steps):
+    try:
+        with one_message(document):
+            next(steps)
+    except StopIteration:
+        return
+    except Exception:
+        log.exception("A part of the page could not be made")
+        return
+    document.add_next_tick_callback(partial(_take_turn, document, steps))
+
+
 @contextlib.contextmanager
 def one_message(document):
     """Send all that changes within to the browser in one message, so that it is drawn in one frame.

@@ -185,6 +185,9 @@ class DesignInputs(param.Parameterized):
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
     refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")
 
+    gesture = None
+    """Number of the user's gesture to which a change belongs while it is noted; None: nobody says."""
+
     _taking = False
 
     @param.depends("preset", watch=True)
@@ -239,7 +242,7 @@ class DesignInputs(param.Parameterized):
         finally:
             self._taking = False
 
-    def take_given(self, given):
+    def take_given(self, given, gesture=None):
         """Set what a user gave, as one change; what cannot be read stays as it was and is noted as refused.
 
         Parameters
@@ -247,9 +250,9 @@ class DesignInputs(param.Parameterized):
         given : mapping
             What was given, whatever it is, by name; names that are no inputs are passed over. A preset sets
             all other inputs first.
+        gesture : int, optional
+            Number of the gesture that gave it.
         """
-        if given.get("preset") in tuple(tig.PRESETS):
-            self.preset = given["preset"]
         values, refused = {}, {}
         for name in PHYSICAL:
             if name in given:
@@ -257,8 +260,14 @@ class DesignInputs(param.Parameterized):
                     values[name] = read_input(name, given[name])
                 except InputError as error:
                     refused[name] = str(error)
-        earlier = {name: words for name, words in self.refused.items() if name not in values}
-        self.param.update(**values, refused={**earlier, **refused})
+        self.gesture = gesture
+        try:
+            if given.get("preset") in tuple(tig.PRESETS):
+                self.preset = given["preset"]
+            earlier = {name: words for name, words in self.refused.items() if name not in values}
+            self.param.update(**values, refused={**earlier, **refused})
+        finally:
+            self.gesture = None
 
     @param.depends("two_stage", watch=True)
     def _forget_second_stage(self):

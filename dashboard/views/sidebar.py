@@ -1,6 +1,6 @@
 """The sidebar: every input of the design in one panel, in the order of the load path.
 
-The panel draws what the table of fields holds, and answers to whatever the user sets once the picture of it has
+The panel draws what the table of fields holds. Whatever the user sets is answered once the picture of it has
 been drawn or given up: then the browser sends what has been set meanwhile. A control changes inputs and
 nothing else.
 """
@@ -38,10 +38,10 @@ class Controls(Viewer):
         outcome.param.watch(self._answer, ["summary", "busy", "progress", "problem", "compiling"])
         self._show()
 
-    def _take(self, number, given):
+    def _take(self, number, given, gesture):
         self._number, self._due, self._taking = number, True, True
         try:
-            self._inputs.take_given(given)
+            self._inputs.take_given(given, gesture)
         finally:
             self._taking = False
             self._show()
@@ -116,4 +116,10 @@ def _choice(inputs, name, replaces=False):
     """Return a choice; one that replaces sets all other inputs too."""
     parameter = inputs.param[name]
     options = [list(each) for each in parameter.names.items()]
-    return {"kind": "choice", "name": name, "label": parameter.label, "options": options, "replaces": replaces}
+    return {
+        "kind": "choice",
+        "name": name,
+        "label": parameter.label,
+        "options": options,
+        "replaces": replaces,
+    }

@@ -2,7 +2,9 @@
 
 import asyncio
 import runpy
+from concurrent.futures import Future
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import panel as pn
@@ -141,6 +143,7 @@ class FakeStore:
 
     def request(self, key):
         self.requested.append(key)
+        return SimpleNamespace(future=Future())
 
     def close(self):
         self.closed = True

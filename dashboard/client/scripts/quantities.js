@@ -5,6 +5,7 @@
 // and at once when the hand lets go, so that whatever it does next finds them there.
 
 const PATIENCE = 3000 // ms after which an answer counts as lost
+const PAUSE = 1000 // ms without a key after which the next one is a gesture of its own
 const STEPS_PER_DECADE = 100
 const SLIDER_FIGURES = 3 // to which a logarithmic slider rounds
 const FIGURES = 6
@@ -33,6 +34,19 @@ class Flow {
     this.answered = this.number
     this.waiting = new Map()
     this.sent = new Map()
+    this.gesture = 0
+  }
+
+  begin() {
+    this.gesture += 1
+    this.pressed = undefined
+  }
+
+  // Keys that follow each other are one gesture.
+  press() {
+    const now = performance.now()
+    if (this.pressed === undefined || now - this.pressed > PAUSE) this.begin()
+    this.pressed = now
   }
 
   // Whether a state of the server is older than what the hand has set of an input.
@@ -49,7 +63,8 @@ class Flow {
     if (this.waiting.size === 0) return
     this.number += 1
     for (const name of this.waiting.keys()) this.sent.set(name, this.number)
-    this.model.send_msg({kind: "set", number: this.number, values: Object.fromEntries(this.waiting)})
+    const values = Object.fromEntries(this.waiting)
+    this.model.send_msg({kind: "set", number: this.number, values, gesture: this.gesture})
     this.waiting.clear()
     clearTimeout(this.timer)
     this.timer = setTimeout(() => this.answer(this.number), PATIENCE)
@@ -149,6 +164,7 @@ class Quantity {
 
   listen() {
     const release = () => this.flow.send()
+    this.slider.addEventListener("pointerdown", () => this.flow.begin())
     this.slider.addEventListener("input", () => this.move(this.slider.valueAsNumber))
     this.slider.addEventListener("change", release)
     this.slider.addEventListener("keyup", release)
@@ -167,6 +183,7 @@ class Quantity {
 
   press(event, steps, ends) {
     if (event.ctrlKey || event.metaKey || event.altKey) return
+    if (event.key in ends || event.key in steps) this.flow.press()
     const many = event.shiftKey && event.key.startsWith("Arrow") ? 10 : 1
     if (event.key in ends) this.set(ends[event.key])
     else if (event.key in steps) this.move(this.scale.position(this.value) + many * steps[event.key])
@@ -196,6 +213,7 @@ class Quantity {
     const typed = this.box.value
     if (typed === this.committed) return
     this.committed = typed
+    this.flow.begin()
     const value = Number(typed)
     if (PLAIN.test(typed) && this.scale.includes(value)) {
       this.place(value)
@@ -285,7 +303,10 @@ class Quantity {
       const label = `Set ${this.field.label} to ${numberText(edge)}${unit}, the edge of what complies`
       const button = element("button", {type: "button", className: "edge", "aria-label": label}, numberText(edge))
       button.style.left = `${100 * this.scale.share(edge)}%`
-      button.addEventListener("click", () => this.set(edge))
+      button.addEventListener("click", () => {
+        this.flow.begin()
+        this.set(edge)
+      })
       return button
     })
     this.edges.replaceChildren(...buttons)
@@ -300,6 +321,7 @@ class Choice {
     this.select.addEventListener("change", () => {
       // another track replaces whatever has not left yet
       if (field.replaces) flow.waiting.clear()
+      flow.begin()
       flow.offer(field.name, this.select.value)
       flow.send()
     })
@@ -317,6 +339,7 @@ class Switch {
     this.field = field
     this.box = element("input", {type: "checkbox", role: "switch"})
     this.box.addEventListener("change", () => {
+      flow.begin()
       flow.offer(field.name, this.box.checked)
       flow.send()
     })
