@@ -5,6 +5,7 @@ Parts are made here and handed to each other; no part looks another up.
 
 import logging
 from functools import partial
+from itertools import chain
 
 import panel as pn
 import panel_material_ui as pmui
@@ -107,32 +108,33 @@ def build(store=None, live_store=None):
     bar = partial(DesignBar, inputs, pins, browser)
     status = partial(Status, outcome, runner.stop, runner.request)
     # the bar first: it counts the steps that can be undone
-    in_turns(put(exchange, {bar_place: bar, status_place: status}))
-    shown = tabs(snapshot, makers, exchange)
+    in_turns(put(exchange, bar_place, bar))
+    shown = tabs(snapshot, makers, exchange, put(exchange, status_place, status))
     return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
 
 
-def put(exchange, parts):
-    """Make parts in their places, one at a time, and prepare the browser for each.
+def put(exchange, place, make):
+    """Make a part in its place, as one step, and prepare the browser for it.
 
     Parameters
     ----------
     exchange : Exchange
         Prepares the browser.
-    parts : mapping of panel.Column to callable
-        How each part is made, by its place.
+    place : panel.Column
+        Where the part goes.
+    make : callable
+        Makes it.
     """
-    for place, make in parts.items():
-        place.objects = [make()]
-        exchange.introduce()
-        yield
+    place.objects = [make()]
+    exchange.introduce()
+    yield
 
 
 TABS = (Explore, Compare, SpecificationView, ReceivedLevel, Track, Learn, Verify, Method, SaveAndShare)
 """The tabs, in their order."""
 
 
-def tabs(snapshot, makers, exchange):
+def tabs(snapshot, makers, exchange, last):
     """Return the tabs; each view is made when it is first looked at, and told whether it is in sight.
 
     A page with all of them would take several times as long to open.
@@ -145,6 +147,8 @@ def tabs(snapshot, makers, exchange):
         How each of :data:`TABS` is made.
     exchange : Exchange
         Prepares the browser for what is added.
+    last : iterator
+        Steps that follow when the first view is there.
     """
     places = [pn.Column(stylesheets=[theme.OPENING_CSS], sizing_mode="stretch_width", margin=0) for _ in TABS]
     titled = zip((tab.title for tab in TABS), places, strict=True)
@@ -153,14 +157,14 @@ def tabs(snapshot, makers, exchange):
     shown._headers = []
     views, begun = {}, set()
 
-    def look(*_):
+    def look(*_, steps_after=()):
         kind = TABS[shown.active]
         snapshot.tab = kind.link_name
         for each, view in views.items():
             view.look(each is kind)
         if kind not in begun:
             begun.add(kind)
-            in_turns(open_view(kind, places[shown.active]))
+            in_turns(chain(open_view(kind, places[shown.active]), steps_after))
 
     def open_view(kind, place):
         view = views[kind] = makers[kind]()
@@ -175,7 +179,7 @@ def tabs(snapshot, makers, exchange):
         shown.active = [tab.link_name for tab in TABS].index(snapshot.tab)
 
     open_tab()
-    look()
+    look(steps_after=last)
     shown.param.watch(look, "active")
     snapshot.param.watch(open_tab, "tab")
     return shown
