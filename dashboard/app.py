@@ -108,7 +108,7 @@ def build(store=None, live_store=None):
     bar = partial(DesignBar, inputs, pins, browser)
     status = partial(Status, outcome, runner.stop, runner.request)
     # the bar first: it counts the steps that can be undone
-    in_turns(put(exchange, bar_place, bar))
+    in_turns(put(exchange, bar_place, bar), report_error)
     shown = tabs(snapshot, makers, exchange, put(exchange, status_place, status))
     return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
 
@@ -164,7 +164,7 @@ def tabs(snapshot, makers, exchange, last):
             view.look(each is kind)
         if kind not in begun:
             begun.add(kind)
-            in_turns(chain(open_view(kind, places[shown.active]), steps_after))
+            in_turns(chain(open_view(kind, places[shown.active]), steps_after), report_error)
 
     def open_view(kind, place):
         view = views[kind] = makers[kind]()
