@@ -86,7 +86,6 @@ def build(store=None, live_store=None):
     checker = VerificationRunner(outcome)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
-    pn.state.onload(lambda: notify_of_problems(problems))
     browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
 
     def show_insertion_gain():
@@ -109,7 +108,8 @@ def build(store=None, live_store=None):
     status = partial(Status, outcome, runner.stop, runner.request)
     # the bar first: it counts the steps that can be undone
     in_turns(put(exchange, bar_place, bar), report_error)
-    shown = tabs(snapshot, makers, exchange, put(exchange, status_place, status))
+    last = chain(put(exchange, status_place, status), notify_of_problems(problems))
+    shown = tabs(snapshot, makers, exchange, last)
     return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
 
 
@@ -186,9 +186,10 @@ def tabs(snapshot, makers, exchange, last):
 
 
 def notify_of_problems(problems):
-    """Say what of a link could not be followed."""
+    """Say what of a link could not be followed, a step for each: two in one message break the second."""
     for words in problems:
         notify("warning", words)
+        yield
 
 
 def page(sidebar, status, main, browser, exchange):
