@@ -1,5 +1,6 @@
 """The panel of quantities: alone in a blank page, with a server that the test plays, and on the dashboard."""
 
+import itertools
 import json
 
 import numpy as np
@@ -193,6 +194,9 @@ def test_where_a_design_complies_is_drawn_and_its_edges_can_be_set(blank):
     expect(hatched).to_have_count(2)
     assert "repeating-linear-gradient" in hatched.first.evaluate("e => getComputedStyle(e).backgroundImage")
     edge = edges.nth(0).bounding_box()
+    boxes = [each.bounding_box() for each in edges.all()]
+    for left, right in itertools.pairwise(boxes):
+        assert left["x"] + left["width"] <= right["x"], "no button covers another"
     edges.nth(0).click()
     assert panel.sent == [{"boot_stiffness": 8.5}]
     expect(box(blank, BOOT)).to_have_value("8.5")

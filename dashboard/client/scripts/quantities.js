@@ -9,6 +9,9 @@ const PAUSE = 1000 // ms without a key after which the next one is a gesture of 
 const STEPS_PER_DECADE = 100
 const SLIDER_FIGURES = 3 // to which a logarithmic slider rounds
 const FIGURES = 6
+const LENGTH = 168 // px of a slider in the sidebar
+const CHARACTER = 8 // px of a digit on the buttons below it
+const BORDER = 14 // px of such a button beside its digits
 const KEYS = {ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1, PageUp: 10, PageDown: -10}
 const UPRIGHT_KEYS = ["ArrowUp", "ArrowDown", "PageUp", "PageDown"]
 const PLAIN = /^[0-9]{1,15}([.][0-9]{0,15})?$/
@@ -25,6 +28,19 @@ function element(name, properties = {}, ...children) {
 
 const rounded = (value, figures) => Number(value.toPrecision(figures))
 const numberText = (value) => String(rounded(value, FIGURES))
+
+// Shares of a slider's length at which words stand that would cover each other at their own.
+function apart(shares, words) {
+  const half = words.map((text) => (CHARACTER * text.length + BORDER) / 2 / LENGTH)
+  const places = [...shares]
+  for (let each = 1; each < places.length; each += 1)
+    places[each] = Math.max(places[each], places[each - 1] + half[each - 1] + half[each])
+  for (let each = places.length - 2; each >= 0; each -= 1) {
+    places[each + 1] = Math.min(places[each + 1], 1)
+    places[each] = Math.min(places[each], places[each + 1] - half[each + 1] - half[each])
+  }
+  return places
+}
 
 // What goes to the server, and when.
 class Flow {
@@ -302,13 +318,14 @@ class Quantity {
     const buttons = edges.map((edge) => {
       const label = `Set ${this.field.label} to ${numberText(edge)}${unit}, the edge of what complies`
       const button = element("button", {type: "button", className: "edge", "aria-label": label}, numberText(edge))
-      button.style.left = `${100 * this.scale.share(edge)}%`
       button.addEventListener("click", () => {
         this.flow.begin()
         this.set(edge)
       })
       return button
     })
+    const places = apart(edges.map((edge) => this.scale.share(edge)), buttons.map((button) => button.textContent))
+    buttons.forEach((button, number) => { button.style.left = `${100 * places[number]}%` })
     this.edges.replaceChildren(...buttons)
   }
 }
