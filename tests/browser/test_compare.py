@@ -172,7 +172,7 @@ def test_axes_are_legible_in_both_themes(open_dashboard, width, least):
 def test_figures_and_buttons_have_names(dashboard):
     for name in ("Insertion gain per one-third-octave band", "Force into the ground over time"):
         expect(dashboard.get_by_role("figure", name=name)).to_be_visible()
-    dashboard.get_by_role("button", name="Advanced").click()
+    dashboard.get_by_text("Advanced", exact=True).click()
     expect(slider(dashboard, "Contact stiffness, kN/mm")).to_be_visible()
 
 

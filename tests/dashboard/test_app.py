@@ -2,6 +2,7 @@
 
 import asyncio
 import runpy
+from concurrent.futures import Future
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -141,6 +142,7 @@ class FakeStore:
 
     def request(self, key):
         self.requested.append(key)
+        return SimpleNamespace(future=Future())
 
     def close(self):
         self.closed = True
