@@ -19,6 +19,11 @@ def level_text(level):
     return f"{level:+.1f} dB".replace("-", "−")
 
 
+def force_text(force):
+    """Return a force [kN] with its sign, three figures and its unit."""
+    return f"{force:+.3g} kN".replace("-", "−")
+
+
 def signed_text(level):
     """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
     text = f"{level:+.1f}"

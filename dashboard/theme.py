@@ -99,15 +99,6 @@ NARROW_WINDOW = 1200
 TICK_SIZES, AXIS_SIZES = ("14px", "17px"), ("15px", "17px")
 """Text at the ticks and beside the axes, in narrow windows and in wide ones."""
 
-LEGEND_LINE, LEGEND_ALPHA = 40, 0.75
-"""Length of a legend's lines, long enough for any dash [px], and how little is seen through it."""
-
-LEGEND_ROWS = 3
-"""Entries of a legend in one column; more make two."""
-
-LEGEND_NAME = 24
-"""Characters of a name in a legend, so that the curves are seen beside it."""
-
 SECOND_DASH = [7, 3]
 """Tells the second of two curves from the first without colour."""
 
@@ -178,6 +169,15 @@ DRAWING_CSS = """
 :host { color: var(--panel-on-background-color); }
 svg { display: block; width: 100%; height: max(440px, calc(100vh - 200px)); }
 """
+LEGEND_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+ul { display: flex; flex-wrap: wrap; gap: 1px 18px; list-style: none; margin: 0; padding: 0 12px 6px 24px; }
+li { display: flex; align-items: baseline; gap: 7px; font-size: 14px; line-height: 19px; min-width: 0; }
+svg { flex: none; align-self: center; }
+span { overflow-wrap: anywhere; }
+"""
+"""What a figure draws, below it: as many rows as the names need."""
+
 SWATCH_CSS = ".swatch { display: block; }"
 
 TABLE_CSS = """
@@ -220,8 +220,8 @@ def _figure_css(height):
     return f":host {{ flex: none !important; height: {height} !important; {icons} }}"
 
 
-TALL = _figure_css("max(300px, calc(53vh - 150px))")
-LOW = _figure_css("max(250px, calc(47vh - 165px))")
+TALL = _figure_css("max(340px, calc(53vh - 150px))")
+LOW = _figure_css("max(250px, calc(47vh - 190px))")
 MEDIUM = _figure_css("300px")
 HIGH = _figure_css("440px")
 SHORT = _figure_css("180px")

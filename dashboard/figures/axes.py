@@ -75,6 +75,11 @@ class AxisEnds:
         self.model = Range1d(*ends)
         self._home = ends
 
+    @property
+    def home(self):
+        """The ends of the axis as it is while nobody zooms, a tuple."""
+        return self._home
+
     def show(self, low, high, step):
         """Make sure that the axis shows what lies from ``low`` to ``high``."""
         home = settled_range(self._home, low, high, step)

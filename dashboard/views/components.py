@@ -43,12 +43,3 @@ def gain_axis(definition):
 
 
 SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}
-
-
-def swatch_svg(colour, dash):
-    """Return a short piece of a design's line, as it is drawn in every plot."""
-    dashes = " ".join(str(length) for length in dash) or "none"
-    return (
-        '<svg class="swatch" width="34" height="12" viewBox="0 0 34 12" aria-hidden="true">'
-        f'<path d="M1 6H33" stroke="{colour}" stroke-width="4" stroke-dasharray="{dashes}"/></svg>'
-    )

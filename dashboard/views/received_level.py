@@ -10,8 +10,9 @@ import panel as pn
 import panel_material_ui as pmui
 
 from dashboard import formats, theme
+from dashboard.figures.swatches import swatch_svg
 from dashboard.views.band_editor import BandEditor
-from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption, swatch_svg
+from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption
 from dashboard.views.tab import Tab
 
 

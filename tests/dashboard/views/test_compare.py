@@ -7,6 +7,7 @@ from bokeh.models import HoverTool
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.client.browser import Browser
+from dashboard.figures.swatches import swatch_svg
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
@@ -14,7 +15,6 @@ from dashboard.session.results import Outcome
 from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
-from dashboard.views.components import swatch_svg
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.track import Track
 
@@ -89,7 +89,7 @@ def test_bands_are_those_that_were_chosen(session):
 
 
 def test_differences_are_drawn_from_the_base(session):
-    data = session.view.differences.differences
+    data = session.view.differences.curves
     own = session.level("booted-block-low-mass")
     np.testing.assert_allclose(data.data["pin_0"], session.level("slab-track") - own, atol=1e-9)
     np.testing.assert_allclose(data.data["pin_1"], session.level("booted-sleeper") - own, atol=1e-9)
@@ -98,7 +98,7 @@ def test_differences_are_drawn_from_the_base(session):
     slab = session.level("slab-track")
     np.testing.assert_allclose(data.data["pin_0"], session.level("booted-sleeper") - slab, atol=1e-9)
     np.testing.assert_allclose(data.data[f"pin_{MOST_PINNED}"], own - slab, atol=1e-9)
-    names = [item.label.value for item in session.view.differences.model.legend[0].items if item.visible]
+    names = list(session.view.differences.legend.listed)
     assert names == ["this design", "booted-sleeper"]
     (hover,) = session.view.differences.model.select({"type": HoverTool})
     assert [name for name, _ in hover.tooltips] == ["band", *names]
@@ -107,7 +107,7 @@ def test_differences_are_drawn_from_the_base(session):
 def test_a_base_that_is_not_solved_yet_says_no_differences(session):
     new = session.pins.add(tig.PRESETS["slab-track"].replace(wheel_mass=700.0), "new")
     session.pins.choose_base(new.key)
-    assert np.isnan(session.view.differences.differences.data["pin_0"]).all()
+    assert np.isnan(session.view.differences.curves.data["pin_0"]).all()
     assert [cell[0] for cell in session.row("63 Hz")][-1] == "–"
     assert all(len(cell) == 1 for cell in session.row("63 Hz"))
 
@@ -132,7 +132,7 @@ def test_hidden_pins_are_neither_listed_nor_drawn(session):
     session.view.list.rows[session.slab.key].shown.value = False
     assert not session.pins[session.slab.key].shown
     assert "slab-track" not in session.table
-    names = [item.label.value for item in session.view.differences.model.legend[0].items if item.visible]
+    names = list(session.view.differences.legend.listed)
     assert names == ["booted-sleeper"]
 
 
