@@ -92,7 +92,7 @@ def build(store=None, live_store=None):
 
     makers = {
         Explore: partial(Explore, outcome, definition, pins, assessment),
-        Compare: partial(Compare, inputs, pins, assessment, show_insertion_gain),
+        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain),
         SpecificationView: partial(SpecificationView, assessment, exchange),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
         Track: partial(Track, inputs, outcome),
@@ -131,7 +131,7 @@ def tabs(snapshot, makers, exchange):
         for _ in TABS
     ]
     titled = zip((tab.title for tab in TABS), places, strict=True)
-    shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0)
+    shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0, sx=theme.TABS)
     views = {}
 
     def look(*_):
@@ -168,7 +168,7 @@ def page(sidebar, status, main, browser, exchange):
     whole = pmui.Page(
         title=TITLE,
         header=[
-            pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(4, 0, 0, 16)),
+            pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(10, 0, 0, 16)),
             pn.HSpacer(),
             copy_button(),
             browser,

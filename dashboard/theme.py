@@ -134,7 +134,7 @@ STATUS_HEIGHT = 32
 FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
 """How pictures look that are those of the inputs, or of earlier ones."""
 
-SUBTITLE = {"color": "white", "opacity": 0.85}
+SUBTITLE = {"color": "white", "opacity": 0.85, "textWrap": "balance"}
 STATUS_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
 div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
@@ -210,6 +210,14 @@ PLAYER_CSS = """
 SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
 """A slider marks the preset's value with a tick."""
 
+TABS = {
+    "& .MuiTab-root": {"minWidth": 0, "textTransform": "none", "fontSize": 16},
+    f"@media (max-width: {NARROW_WINDOW}px)": {
+        "& .MuiTab-root": {"padding": "12px 7px", "fontSize": 14, "letterSpacing": 0}
+    },
+}
+"""All nine tabs are in sight, in narrow windows too."""
+
 PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
 PANEL = {"borderRadius": "8px", "height": "100%"}
 PANEL_TITLE = {"fontWeight": 700}
@@ -283,11 +291,13 @@ p {{ margin: 0; font-size: 16px; }}
 VERDICT_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
 p {{ margin: 0; font-size: 16px; }}
-ul {{ display: grid; grid-template-columns: max-content minmax(0, max-content) 1fr; gap: 4px 12px; }}
-ul {{ list-style: none; margin: 0; padding: 0; }}
+ul {{ display: grid; grid-template-columns: max-content minmax(0, auto) max-content; }}
+ul {{ gap: 4px 12px; justify-content: start; list-style: none; margin: 0; padding: 0; }}
 li {{ display: contents; font-size: 22px; line-height: 1.3; }}
+@media (max-width: {NARROW_WINDOW}px) {{ li {{ font-size: 17px; }} }}
 li svg {{ align-self: center; }}
 .name {{ overflow-wrap: anywhere; }}
+span:last-child {{ white-space: nowrap; }}
 .complies {{ color: {COMPLIES}; font-weight: 700; }}
 .fails {{ color: {FAILS}; font-weight: 700; }}
 """
@@ -295,6 +305,12 @@ li svg {{ align-self: center; }}
 MESSAGE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); }}
 div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS}; }}
+"""
+
+WARNING_CSS = f"""
+:host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
+[role="alert"] {{ font-size: 15px; line-height: 1.4; padding-left: 12px; }}
+[role="alert"] {{ border-left: 4px solid {SPECIFICATION}; }}
 """
 
 PROSE_WIDTH = 900
@@ -305,8 +321,11 @@ table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 4px 16px 4px 0; font-size: 15px; }
 """
 EQUATION_CSS = """
-:host { color: var(--panel-on-background-color); font-size: 16px; overflow-x: auto; }
+.katex { font-size: 1.1em; }
+.katex-display { margin: 10px 0; padding: 3px 0; overflow: auto hidden; }
+.katex-html { overflow: visible; }
 """
+"""Formulas; one that a narrow window has no room for can be moved sideways, never up or down."""
 
 SLOPES_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }

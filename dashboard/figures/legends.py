@@ -68,6 +68,13 @@ def pinned_entry(result, remark=""):
     return result.name + remark, swatch_svg(result.colour, result.dash)
 
 
+def legend_above(plot, columns=2):
+    """Put the legend of a figure whose curves never change above its frame, where it covers none."""
+    legend = plot.legend[0]
+    legend.update(orientation="horizontal", ncols=columns, border_line_color=None, background_fill_alpha=0.0)
+    plot.add_layout(legend, "above")
+
+
 class PinnedLines:
     """Lines for pinned designs; they are made when they are first needed.
 

@@ -23,12 +23,17 @@ class QuickSlider(pmui.FloatSlider):
     _priority_changes: ClassVar[list[str]] = ["value"]
 
 
+SHRINKS = {"flex": "0 1 auto", "min-width": "0", "max-width": "100%"}
+"""What takes the room that its words need, and wraps them where there is less."""
+
+
 def caption(title, words):
     """Return a panel's heading."""
     return pmui.Row(
         pmui.Typography(title, variant="subtitle1", sx=theme.PANEL_TITLE, margin=0),
-        pmui.Typography(words, variant="body2", color="text.secondary", margin=(3, 0, 0, 10)),
+        pmui.Typography(words, variant="body2", color="text.secondary", margin=(3, 0, 0, 10), styles=SHRINKS),
         margin=(4, 0, 0, 12),
+        styles=SHRINKS,
     )
 
 

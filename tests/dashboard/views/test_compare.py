@@ -34,7 +34,9 @@ class Session:
         self.pinned = make_pictures(summaries=summaries)
         self.assessment = Assessment(self.inputs, self.outcome, self.definition, self.pins, self.pinned)
         self.asked = []
-        self.view = Compare(self.inputs, self.pins, self.assessment, lambda: self.asked.append(True))
+        self.view = Compare(
+            self.inputs, self.pins, self.definition, self.assessment, lambda: self.asked.append(True)
+        )
         self.view.look(active=True)
 
     def level(self, key):
