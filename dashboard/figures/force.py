@@ -199,7 +199,7 @@ class ForceFigure:
         """List what is drawn, and how far those reach that leave the frame."""
         own = [(words, swatch_svg(colour, dash)) for words, colour, dash in (ALL_SUPPORTS, UNDER_THE_WHEEL)]
         pinned = [
-            pinned_entry(each, beyond_text(*reach, *self._forces.home))
+            pinned_entry(each, formats.beyond_text(*reach, *self._forces.home))
             for each, reach in zip(self._drawn, self._reach, strict=True)
         ]
         self.legend.show(own + pinned)
@@ -227,27 +227,6 @@ class ForceFigure:
 ALL_SUPPORTS = ("all supports", theme.THIS_DESIGN, ())
 UNDER_THE_WHEEL = ("support under the wheel", theme.LOADED_TRACK, tuple(theme.SECOND_DASH))
 """Name, colour and dash of both forces of the current design."""
-
-
-def beyond_text(least, greatest, low, high):
-    """Return how far a force reaches beyond an axis, in words; empty if it does not.
-
-    Parameters
-    ----------
-    least, greatest : float
-        The force's extremes [kN].
-    low, high : float
-        The axis' ends [kN].
-
-    Returns
-    -------
-    str
-        Words to stand behind a name.
-    """
-    beyond = [force for force, leaves in ((greatest, greatest > high), (least, least < low)) if leaves]
-    if not beyond:
-        return ""
-    return " (cut off: reaches " + " and ".join(formats.force_text(force) for force in beyond) + ")"
 
 
 def _in_view(time, forces, start, end):

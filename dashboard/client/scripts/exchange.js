@@ -3,7 +3,6 @@
 // What is kept is never overwritten before it was offered to a server that does not know it.
 
 const MEMORY = "trackig"
-const PATIENCE = 8000 // ms until a plot in another tab must have been drawn
 const LOOK_EVERY = 500 // ms between looks whether the server is back
 
 const pause = (time) => new Promise((resolve) => setTimeout(resolve, time))
@@ -80,28 +79,6 @@ function choose(model, purpose, accept, most) {
   input.click()
 }
 
-function drawn(name) {
-  const figure = Bokeh.documents.map((each) => each.get_model_by_name(name)).find((each) => each != null)
-  const view = figure === undefined ? null : Bokeh.index.find_one(figure)
-  return view != null && view.el.isConnected && view.el.getBoundingClientRect().width > 0 ? view : null
-}
-
-async function savePlot(model, name, format, file) {
-  const elsewhere = drawn(name) === null
-  if (elsewhere) model.send_msg({kind: "show", data: name})
-  for (let waited = 0; waited < PATIENCE; waited += 100) {
-    const view = drawn(name)
-    if (view !== null && view.bbox.width > 0) {
-      const layer = view.export(format, true)
-      save(file, await layer.to_blob())
-      if (elsewhere) model.send_msg({kind: "back"})
-      return
-    }
-    await pause(100)
-  }
-  model.send_msg({kind: "not_drawn", data: name})
-}
-
 // Bokeh would take up a session where it was, but loses the arrays in it, and would fill this page with that of a
 // restarted server, made for the address as it was at first. Loaded anew, the page comes back as it is now.
 async function comeBack() {
@@ -126,13 +103,12 @@ export function render({model, view}) {
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
     if (message.kind === "introduce") answer()
-    if (message.kind === "save") save(message.name, new Blob([message.text], {type: message.type}))
+    if (message.kind === "save") save(message.name, new Blob([message.data], {type: message.type}))
   })
   view.model.document.on_event("connection_lost", comeBack)
   window.trackig = {
     copyLink: () => copyLink(model),
     choose: (...rest) => choose(model, ...rest),
-    savePlot: (...rest) => savePlot(model, ...rest),
   }
   resume(model)
   return document.createElement("span")

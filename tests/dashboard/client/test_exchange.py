@@ -6,7 +6,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.client import exchange as exchange_module
-from dashboard.client.exchange import Exchange, opening, saving
+from dashboard.client.exchange import Exchange, opening
 
 LIMITS = tig.Specification([(63, -3.0)])
 
@@ -91,9 +91,6 @@ def test_a_memory_that_is_no_study_changes_nothing_and_is_told(session, exchange
         {"kind": "study", "data": "text where bytes are due"},
         {"kind": "specification"},
         {"kind": "__class__", "data": b""},
-        {"kind": "show", "data": "no_such_figure"},
-        {"kind": "show", "data": ["insertion_gain_figure"]},
-        {"kind": "back"},
     ],
 )
 def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
@@ -104,19 +101,5 @@ def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
     assert (opened, sent, session.snapshot.query()) == ([], [], before)
 
 
-def test_a_plot_in_another_tab_is_shown_and_left_again(session, exchange):
-    tabs = []
-    session.snapshot.param.watch(lambda event: tabs.append(event.new), "tab")
-
-    async def run():
-        session.snapshot.tab = "keep"
-        exchange.handle_message({"kind": "show", "data": "insertion_gain_figure"})
-        exchange.handle_message({"kind": "back"})
-
-    asyncio.run(run())
-    assert tabs == ["keep", "explore", "keep"]
-
-
 def test_scripts_are_made_of_quoted_words():
     assert opening("source") == f'window.trackig.choose("source", ".csv,.txt,.tsv", {64 * 1024})'
-    assert saving("x", "svg", 'a"b') == 'window.trackig.savePlot("x", "svg", "a\\"b")'
