@@ -29,13 +29,14 @@ FREQUENCIES = (
 )
 """Name of each row of the table of natural frequencies, and what stands in it."""
 
-_TEMPLATES = jinja2.Environment(
+TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("dashboard.report", "templates"),
     autoescape=True,
     undefined=jinja2.StrictUndefined,
     trim_blocks=True,
     lstrip_blocks=True,
 )
+"""Templates of what is printed; whatever they show is escaped."""
 
 
 def html_report(study, summaries, *, date, version):
@@ -68,7 +69,7 @@ def html_report(study, summaries, *, date, version):
         raise ValueError("there is no solution of any design to report: solve one first")
     base = every[0 if study.view.base is None else 1 + study.view.base]
     base = base if base.summary is not None else results[0]
-    return _TEMPLATES.get_template("report.html").render(
+    return TEMPLATES.get_template("report.html").render(
         study=study,
         date=f"{date.day} {date:%B %Y}",
         version=version,
@@ -129,7 +130,7 @@ def _inputs(results, base):
             label,
             unit,
             [
-                (_input(each.design, name), getattr(each.design, name) != getattr(base.design, name))
+                (input_text(each.design, name), getattr(each.design, name) != getattr(base.design, name))
                 for each in results
             ],
         )
@@ -137,7 +138,7 @@ def _inputs(results, base):
     ]
 
 
-def _input(design, field):
+def input_text(design, field):
     """Return an input as the report shows it."""
     value = getattr(design, field)
     if value is None:
@@ -159,12 +160,13 @@ def _has_own_loss(design, field):
 def _frequencies(results):
     """Return rows of (name, cells)."""
     return [
-        (name, [_hertz(take(each.summary.solution.natural_frequencies)) for each in results])
+        (name, [hertz_text(take(each.summary.solution.natural_frequencies)) for each in results])
         for name, take in FREQUENCIES
     ]
 
 
-def _hertz(value):
+def hertz_text(value):
+    """Return natural frequencies [Hz], one, several or None, as the report shows them."""
     if value is None:
         return "–"
     values = value if isinstance(value, tuple) else (value,)

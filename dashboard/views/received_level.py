@@ -48,7 +48,7 @@ class ReceivedLevel(Tab):
             "", stylesheets=[theme.LEVELS_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
         )
         self.figure = ReceivedLevelFigure()
-        self.plot = bokeh_pane(self.figure.layout)
+        self.plot = pn.Column(bokeh_pane(self.figure.layout), sizing_mode="stretch_width", margin=0)
         self.editor = BandEditor(
             assessment, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
         )

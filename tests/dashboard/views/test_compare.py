@@ -1,5 +1,8 @@
 """Designs side by side: the list of pins, the table, differences from a base, undo and redo, the drawing."""
 
+import dataclasses
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from bokeh.models import HoverTool
@@ -11,11 +14,12 @@ from dashboard.figures.swatches import swatch_svg
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
-from dashboard.session.results import Outcome
+from dashboard.session.results import DesignResult, Outcome
 from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
 from dashboard.views.design_bar import DesignBar
+from dashboard.views.likeness import Likeness, likeness_words
 from dashboard.views.track import Track
 
 MARKUP = "<img src=x onerror=console.error(1)>"
@@ -284,3 +288,54 @@ def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     track.look(active=True)
     assert "kg" in track.drawing.object
     assert "111 kg" not in track.drawing.object
+
+
+def test_unlike_wheels_are_told_and_set_alike_as_one_change(session):
+    view = session.view.likeness
+    assert view.row.visible
+    assert "unsprung wheel mass (450, 880 and 950 kg)" in view.text.object
+    session.pins.choose_base(session.sleeper.key)
+    changes = []
+    session.pins.param.watch(lambda event: changes.append(event.new), "pinned")
+    view.set_alike.param.trigger("clicks")
+    assert len(changes) == 1
+    assert {pin.design.wheel_mass for pin in session.pins.pinned} == {session.inputs.wheel_mass}
+    assert [pin.name for pin in session.pins.pinned] == list(KEYS)
+    assert session.pins[session.pins.base].name == KEYS[1]
+    assert not {pin.key for pin in session.pins.pinned} & {session.slab.key, session.sleeper.key}
+    assert not view.row.visible
+
+
+def test_designs_that_differ_in_their_supports_alone_are_not_warned_of():
+    block = tig.PRESETS["booted-block-low-mass"]
+    assert likeness_words([block, block.replace(boot_stiffness=60e6, fastener_spacing=0.7)]) == ""
+    other = block.replace(rail=tig.RAILS["49E1"], contact_stiffness=1e9)
+    words = likeness_words([block, other])
+    assert "contact stiffness (1000 and 1200 kN/mm) and rail (49E1 and 60)" in words
+
+
+def test_names_of_rails_are_text_in_a_warning():
+    block = tig.PRESETS["booted-block-low-mass"]
+    own = block.replace(rail=dataclasses.replace(block.rail, name=MARKUP))
+    results = [DesignResult(tig.PinnedDesign("one", design)) for design in (block, own)]
+    warning = Likeness(None, SimpleNamespace(results=results))
+    warning.show()
+    assert "&lt;img" in warning.text.object
+    assert "<img" not in warning.text.object
+
+
+def test_hidden_designs_are_no_cause_for_a_warning(session):
+    for pin in session.pins.pinned:
+        session.pins.show(pin.key, shown=False)
+    assert not session.view.likeness.row.visible
+
+
+def test_insertion_gain_itself_is_drawn_beside_its_differences(session):
+    gains = session.view.gains
+    data = gains.curves.data
+    np.testing.assert_array_equal(data["pin_8"], session.level("booted-block-low-mass"))
+    np.testing.assert_array_equal(data["pin_1"], session.level("booted-sleeper"))
+    assert gains.legend.listed == ("this design", *KEYS)
+    assert gains.model.y_range.start <= min(data["pin_8"].min(), data["pin_1"].min())
+    session.definition.summation = "coherent"
+    assert gains.model.yaxis[0].axis_label == "IG, dB (coherent / line)"
