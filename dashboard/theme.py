@@ -189,7 +189,10 @@ th, td { padding: 4px 12px; text-align: right; vertical-align: top; }
 td, tbody th { border-top: 1px solid rgba(128, 128, 128, 0.3); }
 th[scope="row"], th[scope="rowgroup"], thead th:first-child { text-align: left; white-space: nowrap; }
 th[scope="row"] { font-weight: 400; }
-thead th { max-width: 150px; overflow-wrap: anywhere; }
+thead th { min-width: 76px; max-width: 150px; overflow-wrap: break-word; hyphens: auto; }
+td, thead th { padding: 4px 8px; }
+thead th:first-child, th[scope="row"] { position: sticky; left: 0; }
+thead th:first-child, th[scope="row"] { background: var(--panel-background-color); }
 .group th { padding-top: 12px; }
 .swatch { display: block; margin-left: auto; }
 .name { display: block; }
@@ -258,7 +261,8 @@ _TABLE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); overflow-x: auto; }}
 table {{ border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }}
 caption {{ position: absolute; clip-path: inset(50%); white-space: nowrap; }}
-th, td {{ padding: 1px 10px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
+th, td {{ padding: 1px 8px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
+@media (max-width: {NARROW_WINDOW}px) {{ table {{ font-size: 14px; }} th, td {{ padding: 1px 4px; }} }}
 th {{ font-weight: 600; }}
 td {{ white-space: nowrap; }}
 thead th {{ vertical-align: bottom; }}
@@ -272,8 +276,10 @@ BAND_GRID_CSS = f"""
 thead th {{ border-bottom: none; }}
 thead tr + tr th {{ font-weight: 400; border-bottom: 1px solid {PRESET_GHOST}40; }}
 thead svg {{ display: block; margin: 0 0 2px auto; }}
+tbody th, thead tr:first-child th:first-child {{ position: sticky; left: 0; }}
+tbody th, thead tr:first-child th:first-child {{ background: var(--panel-background-color); }}
 input {{
-    width: 76px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
+    width: 64px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
     border: 1px solid {PRESET_GHOST}; border-radius: 4px;
 }}
 input:focus {{ outline: 2px solid {THIS_DESIGN}; outline-offset: 0; }}
@@ -321,11 +327,14 @@ table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 4px 16px 4px 0; font-size: 15px; }
 """
 EQUATION_CSS = """
-.katex { font-size: 1.1em; }
-.katex-display { margin: 10px 0; padding: 3px 0; overflow: auto hidden; }
-.katex-html { overflow: visible; }
+.katex .katex-html { display: none; }
+.katex .katex-mathml { position: static; clip: auto; clip-path: none; }
+.katex .katex-mathml { width: auto; height: auto; overflow: visible; }
+math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math", math, serif; font-size: 17px; }
+.katex-display { margin: 12px 0; overflow: auto hidden; }
+.katex-display math { font-size: 19px; }
 """
-"""Formulas; one that a narrow window has no room for can be moved sideways, never up or down."""
+"""Formulas as the browser sets them (MathML): KaTeX's own setting needs fonts that nobody here serves."""
 
 SLOPES_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }

@@ -39,6 +39,9 @@ NOT_COPIED = "The browser does not let the page copy. Copy the address from the 
 HANDLING_FAILED = "Something went wrong; the server's log has the details."
 NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
 
+LASTING = {"success": 3000, "warning": 8000, "error": 8000}
+"""How long a notification of each kind stays [ms]."""
+
 log = logging.getLogger(__name__)
 
 
@@ -155,9 +158,19 @@ class Exchange(Scripted):
 
 
 def notify(kind, words):
-    """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``."""
-    if pn.state.notifications is not None:
-        getattr(pn.state.notifications, kind)(words, duration=8000)
+    """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``.
+
+    It stands in the header, where it covers no control and no figure. A success takes away what was said
+    before it.
+    """
+    area = pn.state.notifications
+    if area is None:
+        return
+    area.position = "top-center"
+    if kind == "success":
+        for earlier in [*area.notifications]:
+            earlier.destroy()
+    getattr(area, kind)(words, duration=LASTING[kind])
 
 
 def opening(purpose):
