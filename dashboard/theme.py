@@ -192,7 +192,7 @@ th[scope="row"] { font-weight: 400; }
 thead th { min-width: 76px; max-width: 150px; overflow-wrap: break-word; hyphens: auto; }
 td, thead th { padding: 4px 8px; }
 thead th:first-child, th[scope="row"] { position: sticky; left: 0; }
-thead th:first-child, th[scope="row"] { background: var(--panel-background-color); }
+thead th:first-child, th[scope="row"] { background: var(--panel-surface-color); }
 .group th { padding-top: 12px; }
 .swatch { display: block; margin-left: auto; }
 .name { display: block; }
@@ -222,7 +222,9 @@ TABS = {
 """All nine tabs are in sight, in narrow windows too."""
 
 PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
-PANEL = {"borderRadius": "8px", "height": "100%"}
+PANEL = {"borderRadius": "8px", "height": "100%", "backgroundColor": "var(--panel-surface-color)"}
+"""A panel takes its paper from the page's style, as its text does: both change at once with the theme."""
+
 PANEL_TITLE = {"fontWeight": 700}
 
 
@@ -262,7 +264,11 @@ _TABLE_CSS = f"""
 table {{ border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }}
 caption {{ position: absolute; clip-path: inset(50%); white-space: nowrap; }}
 th, td {{ padding: 1px 8px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
-@media (max-width: {NARROW_WINDOW}px) {{ table {{ font-size: 14px; }} th, td {{ padding: 1px 4px; }} }}
+@media (max-width: {NARROW_WINDOW}px) {{
+    table {{ font-size: 13.5px; }}
+    th, td {{ padding: 1px 4px; }}
+    input {{ max-width: 50px; }}
+}}
 th {{ font-weight: 600; }}
 td {{ white-space: nowrap; }}
 thead th {{ vertical-align: bottom; }}
@@ -277,7 +283,7 @@ thead th {{ border-bottom: none; }}
 thead tr + tr th {{ font-weight: 400; border-bottom: 1px solid {PRESET_GHOST}40; }}
 thead svg {{ display: block; margin: 0 0 2px auto; }}
 tbody th, thead tr:first-child th:first-child {{ position: sticky; left: 0; }}
-tbody th, thead tr:first-child th:first-child {{ background: var(--panel-background-color); }}
+tbody th, thead tr:first-child th:first-child {{ background: var(--panel-surface-color); }}
 input {{
     width: 64px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
     border: 1px solid {PRESET_GHOST}; border-radius: 4px;
@@ -330,7 +336,8 @@ EQUATION_CSS = """
 .katex .katex-html { display: none; }
 .katex .katex-mathml { position: static; clip: auto; clip-path: none; }
 .katex .katex-mathml { width: auto; height: auto; overflow: visible; }
-math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math", math, serif; font-size: 17px; }
+math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math", "DejaVu Math TeX Gyre", math; }
+math { font-size: 17px; }
 .katex-display { margin: 12px 0; overflow: auto hidden; }
 .katex-display math { font-size: 19px; }
 """

@@ -4,6 +4,9 @@
 
 const MEMORY = "trackig"
 const LOOK_EVERY = 500 // ms between looks whether the server is back
+const RECOLOURED = 100 // ms after which recolouring has begun
+const GAP = 40 // ms between looks whether the page is at work
+const PATIENCE = 1500 // ms after which the page is shown as it is; browsers give up after 4000
 
 const pause = (time) => new Promise((resolve) => setTimeout(resolve, time))
 
@@ -79,6 +82,26 @@ function choose(model, purpose, accept, most) {
   input.click()
 }
 
+// When the theme is switched, Panel recolours text at once and the paper behind it part by part, some seconds later on
+// a slow machine: white on white. Until nothing is left to do, the picture stays as it was.
+function switchThemeAsAWhole(event) {
+  const toggle = event.composedPath().find((each) => each.getAttribute?.("aria-label") === "Toggle theme")
+  if (toggle === undefined || !event.isTrusted || document.startViewTransition === undefined) return
+  event.stopImmediatePropagation()
+  event.preventDefault()
+  const change = document.startViewTransition(async () => {
+    toggle.click()
+    await pause(RECOLOURED)
+    const patience = performance.now() + PATIENCE
+    for (let idle = 0; idle < 3 && performance.now() < patience; ) {
+      const before = performance.now()
+      await pause(GAP)
+      idle = performance.now() - before < 2 * GAP ? idle + 1 : 0
+    }
+  })
+  change.updateCallbackDone.then(() => change.skipTransition())
+}
+
 // Bokeh would take up a session where it was, but loses the arrays in it, and would fill this page with that of a
 // restarted server, made for the address as it was at first. Loaded anew, the page comes back as it is now.
 async function comeBack() {
@@ -106,6 +129,7 @@ export function render({model, view}) {
     if (message.kind === "save") save(message.name, new Blob([message.data], {type: message.type}))
   })
   view.model.document.on_event("connection_lost", comeBack)
+  document.addEventListener("click", switchThemeAsAWhole, true)
   window.trackig = {
     copyLink: () => copyLink(model),
     choose: (...rest) => choose(model, ...rest),

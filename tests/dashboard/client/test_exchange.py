@@ -2,7 +2,9 @@
 
 import asyncio
 
+import panel as pn
 import pytest
+from panel_material_ui.notifications import NotificationArea
 
 import trackig_core as tig
 from dashboard.client import exchange as exchange_module
@@ -103,3 +105,15 @@ def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
 
 def test_scripts_are_made_of_quoted_words():
     assert opening("source") == f'window.trackig.choose("source", ".csv,.txt,.tsv", {64 * 1024})'
+
+
+def test_a_success_takes_away_what_was_said_before_and_no_notification_covers_the_page(monkeypatch):
+    monkeypatch.setattr(pn.state.__class__, "notifications", NotificationArea())
+    exchange_module.notify("warning", "There is no room.")
+    exchange_module.notify("error", "It failed.")
+    area = pn.state.notifications
+    assert [each.message for each in area.notifications] == ["There is no room.", "It failed."]
+    exchange_module.notify("success", "It is open.")
+    assert [each.message for each in area.notifications] == ["It is open."]
+    assert area.position == "top-center"
+    assert area.notifications[0].duration < 5000
