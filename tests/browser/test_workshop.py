@@ -164,7 +164,7 @@ def table(data):
 def check_exports(page, solutions):
     """Download each export and hold it against the library."""
     name, data = download(page, "Insertion gain, CSV")
-    assert name == "trackig-tunnel-7-booted-block-low-mass-modified-gain.csv"
+    assert name == "trackig-tunnel-7-booted-sleeper-modified-gain.csv"
     comments, header, rows = table(data)
     assert comments[0] == "# study: Tunnel 7"
     assert header[1:] == [f"insertion_gain_db {each}" for each in solutions]
@@ -173,7 +173,7 @@ def check_exports(page, solutions):
         np.testing.assert_allclose(column, solution.insertion_gain, atol=5.1e-5)
 
     name, data = download(page, "Force, CSV")
-    assert name == "trackig-tunnel-7-booted-block-low-mass-modified-force.csv"
+    assert name == "trackig-tunnel-7-booted-sleeper-modified-force.csv"
     _, header, rows = table(data)
     hand = np.array([row[:2] for row in rows], dtype=float).T
     np.testing.assert_allclose(hand[0], solutions["This design"].time, atol=1e-9)
@@ -188,15 +188,15 @@ def check_exports(page, solutions):
         ("Force, SVG", b"<?xml "),
     ):
         name, data = download(page, button)
-        assert name.startswith("trackig-tunnel-7-booted-block-low-mass-modified-")
+        assert name.startswith("trackig-tunnel-7-booted-sleeper-modified-")
         assert name.endswith(button[-3:].lower())
         assert data.startswith(start)
         assert len(data) > 10_000
         assert MARKUP.encode() not in data
 
     name, data = download(page, "Data sheet, HTML")
-    assert name == "trackig-tunnel-7-booted-block-low-mass-modified-data-sheet.html"
-    assert b"Booted block, low mass, modified" in data
+    assert name == "trackig-tunnel-7-booted-sleeper-modified-data-sheet.html"
+    assert b"Booted sleeper, modified" in data
     assert pages(page, data) == 1
 
     name, data = download(page, "Report, HTML")
