@@ -94,7 +94,7 @@ def build(store=None, live_store=None):
 
     makers = {
         Explore: partial(Explore, outcome, definition, pins, assessment),
-        Compare: partial(Compare, inputs, pins, assessment, show_insertion_gain),
+        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain),
         SpecificationView: partial(SpecificationView, assessment, exchange),
         Decide: partial(Decide, inputs, definition, pins, assessment),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
@@ -164,7 +164,7 @@ def tabs(snapshot, makers, exchange, last):
     """
     places = [pn.Column(stylesheets=[theme.OPENING_CSS], sizing_mode="stretch_width", margin=0) for _ in TABS]
     titled = zip((tab.title for tab in TABS), places, strict=True)
-    shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0)
+    shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0, sx=theme.TABS)
     # Panel makes a pane of each title that is plain text, and shows none of them
     shown._headers = []
     views, begun = {}, set()
@@ -209,7 +209,7 @@ def page(sidebar, status, main, browser, exchange):
     whole = pmui.Page(
         title=TITLE,
         header=[
-            pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(4, 0, 0, 16)),
+            pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(10, 0, 0, 16)),
             pn.HSpacer(),
             copy_button(),
             browser,

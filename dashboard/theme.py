@@ -99,15 +99,6 @@ NARROW_WINDOW = 1200
 TICK_SIZES, AXIS_SIZES = ("14px", "17px"), ("15px", "17px")
 """Text at the ticks and beside the axes, in narrow windows and in wide ones."""
 
-LEGEND_LINE, LEGEND_ALPHA = 40, 0.75
-"""Length of a legend's lines, long enough for any dash [px], and how little is seen through it."""
-
-LEGEND_ROWS = 3
-"""Entries of a legend in one column; more make two."""
-
-LEGEND_NAME = 24
-"""Characters of a name in a legend, so that the curves are seen beside it."""
-
 SECOND_DASH = [7, 3]
 """Tells the second of two curves from the first without colour."""
 
@@ -142,7 +133,7 @@ DESIGN_BAR_HEIGHT = 80
 FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
 """How pictures look that are those of the inputs, or of earlier ones."""
 
-SUBTITLE = {"color": "white", "opacity": 0.85}
+SUBTITLE = {"color": "white", "opacity": 0.85, "textWrap": "balance"}
 ANSWER_CSS = """
     p { margin: 2px 0; font-size: 1.05rem; color: var(--panel-on-surface-color, inherit); }
     p.problem { color: #c2410c; font-weight: 600; }
@@ -184,6 +175,15 @@ DRAWING_CSS = """
 :host { color: var(--panel-on-background-color); }
 svg { display: block; width: 100%; height: max(440px, calc(100vh - 200px)); }
 """
+LEGEND_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+ul { display: flex; flex-wrap: wrap; gap: 1px 18px; list-style: none; margin: 0; padding: 0 12px 6px 24px; }
+li { display: flex; align-items: baseline; gap: 7px; font-size: 14px; line-height: 19px; min-width: 0; }
+svg { flex: none; align-self: center; }
+span { overflow-wrap: anywhere; }
+"""
+"""What a figure draws, below it: as many rows as the names need."""
+
 SWATCH_CSS = ".swatch { display: block; }"
 
 TABLE_CSS = """
@@ -195,7 +195,10 @@ th, td { padding: 4px 12px; text-align: right; vertical-align: top; }
 td, tbody th { border-top: 1px solid rgba(128, 128, 128, 0.3); }
 th[scope="row"], th[scope="rowgroup"], thead th:first-child { text-align: left; white-space: nowrap; }
 th[scope="row"] { font-weight: 400; }
-thead th { max-width: 150px; overflow-wrap: anywhere; }
+thead th { min-width: 76px; max-width: 150px; overflow-wrap: break-word; hyphens: auto; }
+td, thead th { padding: 4px 8px; }
+thead th:first-child, th[scope="row"] { position: sticky; left: 0; }
+thead th:first-child, th[scope="row"] { background: var(--panel-surface-color); }
 .group th { padding-top: 12px; }
 .swatch { display: block; margin-left: auto; }
 .name { display: block; }
@@ -213,8 +216,18 @@ PLAYER_CSS = """
 """
 """The controls beside a moving drawing, which run in the browser alone."""
 
+TABS = {
+    "& .MuiTab-root": {"minWidth": 0, "textTransform": "none", "fontSize": 16},
+    f"@media (max-width: {NARROW_WINDOW}px)": {
+        "& .MuiTab-root": {"padding": "12px 6px", "fontSize": 13.5, "letterSpacing": 0}
+    },
+}
+"""All ten tabs are in sight, in narrow windows too."""
+
 PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
-PANEL = {"borderRadius": "8px", "height": "100%"}
+PANEL = {"borderRadius": "8px", "height": "100%", "backgroundColor": "var(--panel-surface-color)"}
+"""A panel takes its paper from the page's style, as its text does: both change at once with the theme."""
+
 PANEL_CSS = ":host { background: var(--panel-surface-color); border-radius: 8px; }"
 CAPTION_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
@@ -230,14 +243,19 @@ BESIDE_CSS = """
 """
 """Two panels side by side, or below each other where there is no room."""
 
+FITTING_CSS = """
+:host { display: grid !important; grid-template-columns: repeat(auto-fit, minmax(min(420px, 100%), 1fr)); }
+"""
+"""As many figures side by side as there is room for."""
+
 
 def _figure_css(height):
     icons = "--bokeh-icon-color: var(--panel-on-background-color);"
     return f":host {{ flex: none !important; height: {height} !important; {icons} }}"
 
 
-TALL = _figure_css("max(300px, calc(53vh - 150px))")
-LOW = _figure_css("max(250px, calc(47vh - 165px))")
+TALL = _figure_css("max(340px, calc(53vh - 150px))")
+LOW = _figure_css("max(250px, calc(47vh - 190px))")
 MEDIUM = _figure_css("300px")
 HIGH = _figure_css("440px")
 SHORT = _figure_css("180px")
@@ -266,7 +284,12 @@ _TABLE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); overflow-x: auto; }}
 table {{ border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }}
 caption {{ position: absolute; clip-path: inset(50%); white-space: nowrap; }}
-th, td {{ padding: 1px 10px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
+th, td {{ padding: 1px 8px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
+@media (max-width: {NARROW_WINDOW}px) {{
+    table {{ font-size: 13.5px; }}
+    th, td {{ padding: 1px 4px; }}
+    input {{ max-width: 50px; }}
+}}
 th {{ font-weight: 600; }}
 td {{ white-space: nowrap; }}
 thead th {{ vertical-align: bottom; }}
@@ -280,8 +303,10 @@ BAND_GRID_CSS = f"""
 thead th {{ border-bottom: none; }}
 thead tr + tr th {{ font-weight: 400; border-bottom: 1px solid {PRESET_GHOST}40; }}
 thead svg {{ display: block; margin: 0 0 2px auto; }}
+tbody th, thead tr:first-child th:first-child {{ position: sticky; left: 0; }}
+tbody th, thead tr:first-child th:first-child {{ background: var(--panel-surface-color); }}
 input {{
-    width: 76px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
+    width: 64px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
     border: 1px solid {PRESET_GHOST}; border-radius: 4px;
 }}
 input:focus {{ outline: 2px solid {THIS_DESIGN}; outline-offset: 0; }}
@@ -299,11 +324,13 @@ p {{ margin: 0; font-size: 16px; }}
 VERDICT_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
 p {{ margin: 0; font-size: 16px; }}
-ul {{ display: grid; grid-template-columns: max-content minmax(0, max-content) 1fr; gap: 4px 12px; }}
-ul {{ list-style: none; margin: 0; padding: 0; }}
+ul {{ display: grid; grid-template-columns: max-content minmax(0, auto) max-content; }}
+ul {{ gap: 4px 12px; justify-content: start; list-style: none; margin: 0; padding: 0; }}
 li {{ display: contents; font-size: 22px; line-height: 1.3; }}
+@media (max-width: {NARROW_WINDOW}px) {{ li {{ font-size: 17px; }} }}
 li svg {{ align-self: center; }}
 .name {{ overflow-wrap: anywhere; }}
+span:last-child {{ white-space: nowrap; }}
 .complies {{ color: {COMPLIES}; font-weight: 700; }}
 .fails {{ color: {FAILS}; font-weight: 700; }}
 """
@@ -459,6 +486,12 @@ div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywh
 div[role=status] {{ font-weight: 400; color: var(--panel-on-background-color); }}
 """
 
+WARNING_CSS = f"""
+:host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
+[role="alert"] {{ font-size: 15px; line-height: 1.4; padding-left: 12px; }}
+[role="alert"] {{ border-left: 4px solid {SPECIFICATION}; }}
+"""
+
 PROSE_WIDTH = 900
 PROSE_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); font-size: 16px; }
@@ -467,8 +500,15 @@ table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 4px 16px 4px 0; font-size: 15px; }
 """
 EQUATION_CSS = """
-:host { color: var(--panel-on-background-color); font-size: 16px; overflow-x: auto; }
+.katex .katex-html { display: none; }
+.katex .katex-mathml { position: static; clip: auto; clip-path: none; }
+.katex .katex-mathml { width: auto; height: auto; overflow: visible; }
+math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math", "DejaVu Math TeX Gyre", math; }
+math { font-size: 17px; }
+.katex-display { margin: 12px 0; overflow: auto hidden; }
+.katex-display math { font-size: 19px; }
 """
+"""Formulas as the browser sets them (MathML): KaTeX's own setting needs fonts that nobody here serves."""
 
 SLOPES_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }

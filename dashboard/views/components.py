@@ -28,6 +28,10 @@ class QuickSlider(pmui.FloatSlider):
     _priority_changes: ClassVar[list[str]] = ["value"]
 
 
+SHRINKS = {"flex": "0 1 auto", "min-width": "0", "max-width": "100%"}
+"""What takes the room that its words need, and wraps them where there is less."""
+
+
 def caption(title, words):
     """Return a panel's heading."""
     text = f"<h2>{html.escape(title)}</h2><p>{html.escape(words)}</p>"
@@ -53,12 +57,3 @@ def gain_axis(definition):
 
 
 SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}
-
-
-def swatch_svg(colour, dash):
-    """Return a short piece of a design's line, as it is drawn in every plot."""
-    dashes = " ".join(str(length) for length in dash) or "none"
-    return (
-        '<svg class="swatch" width="34" height="12" viewBox="0 0 34 12" aria-hidden="true">'
-        f'<path d="M1 6H33" stroke="{colour}" stroke-width="4" stroke-dasharray="{dashes}"/></svg>'
-    )

@@ -43,9 +43,9 @@ class Explore(Tab):
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
         self.verdict = ShortVerdict(assessment)
-        self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
+        self.panes = [bokeh_pane(each.layout) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
-            label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
+            label="", size="small", variant="outlined", visible=False, margin=(7, 0, 0, 10)
         )
         self.show_current = pmui.Button(
             label="Show this design",
