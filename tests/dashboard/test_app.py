@@ -40,6 +40,7 @@ TABS = {
     "explore": "Explore",
     "compare": "Compare",
     "specification": "Specification",
+    "decide": "Decide",
     "level": "Received level",
     "track": "Track",
     "learn": "Learn",
