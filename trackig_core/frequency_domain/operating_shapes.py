@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from trackig_core.arrays import ComplexArray, RealArray
 from trackig_core.frequency_domain.floquet_waves import Waves, contact_force, waves
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
+from trackig_core.frequency_domain.timoshenko import FreeBeam
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.track.design import TrackDesign
 
@@ -153,6 +154,9 @@ def _wave(track: Waves, shapes: ComplexArray, element: NDArray[np.int_]) -> Comp
 
 def bay_shapes(design: TrackDesign, track: Waves, per_bay: int) -> ComplexArray:
     """Return both waves within one bay, 1 over the support that it begins with (per_bay, 2, frequencies)."""
+    if track.rail == "timoshenko":
+        beam = FreeBeam.of(design.rail, track.frequency_squared)
+        return beam.bay_shapes(design.fastener_spacing, track.multipliers, per_bay)
     dx = design.fastener_spacing / per_bay
     inertia = design.rail.mass_per_metre * dx**4 / design.rail.bending_stiffness * track.frequency_squared
     multipliers = track.multipliers
