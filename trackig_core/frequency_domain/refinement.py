@@ -59,9 +59,11 @@ def resolved_spectrum(
 
 
 def _is_compiled(lattice: Lattice) -> bool:
-    """Return whether a lattice is refined by compiled code: all that are not for study only."""
+    """Return whether a lattice is refined by compiled code: those whose rail only bends, but for those for study."""
+    if lattice.rail != "euler" or lattice.elements_per_bay != batch_kernels.ELEMENTS_PER_BAY:
+        return False
     ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
-    return lattice.elements_per_bay == batch_kernels.ELEMENTS_PER_BAY and not ring_in_continuous_time
+    return not ring_in_continuous_time
 
 
 def _stepping(model: TrackModel, lattice: Lattice) -> tuple[RealArray, float, int]:
