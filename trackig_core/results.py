@@ -92,7 +92,8 @@ class InsertionGain:
     band_energy, reference_energy : numpy.ndarray (21,) [N2 s]
         Energy of the track and of its reference, integrated over each band.
     reference : str
-        ``"line"`` (straight line fitted below resonance) or ``"rigid"`` (exact rigid track).
+        ``"line"`` (line fitted below resonance), ``"rigid"`` (exact rigid track) or ``"stiff"`` (very stiff
+        track on the same ground).
     summation : str
         ``"energy"`` (squared support forces summed) or ``"coherent"`` (forces summed, then squared).
     """

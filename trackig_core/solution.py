@@ -10,9 +10,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
-from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.levels.insertion_gain import insertion_gain, own_reference
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import pandas
     from matplotlib.axes import Axes
 
@@ -22,7 +24,11 @@ if TYPE_CHECKING:
     from trackig_core.track.design import TrackDesign
     from trackig_core.track.viscoelastic_law import Relaxation
 
-REFERENCE_WORDS = {"line": "straight reference line", "rigid": "rigid track"}
+REFERENCE_WORDS = {
+    "line": "straight reference line",
+    "rigid": "rigid track",
+    "stiff": "very stiff track on the same ground",
+}
 """What insertion gain refers to, in words."""
 
 SUMMATION_WORDS = {"energy": "squared support forces summed", "coherent": "support forces summed"}
@@ -53,6 +59,8 @@ class Solution:
         Low-passed time record; None when nothing was stepped in time.
     notes : tuple of str
         What the user should know: a halved time step, an extended record, a poor damping fit.
+    stiff_spectrum : callable or None
+        ``stiff_spectrum(design)`` returns the ForceSpectrum of the very stiff reference track.
     """
 
     design: TrackDesign
@@ -65,6 +73,7 @@ class Solution:
     grid: Grid | None = None
     history: TimeHistory | None = None
     notes: tuple[str, ...] = ()
+    stiff_spectrum: Callable[[TrackDesign], ForceSpectrum] | None = None
     _gains: dict[tuple[str, str], InsertionGain] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
@@ -101,13 +110,13 @@ class Solution:
         """Low-passed force into the ground, summed over all supports (samples,) [N], or None."""
         return None if self.history is None else self.history.support_force @ self.history.multiplicity
 
-    def gain_for(self, reference: str = "line", summation: str = "energy") -> InsertionGain:
+    def gain_for(self, reference: str | None = None, summation: str = "energy") -> InsertionGain:
         """Return the insertion gain by another definition; each definition is computed once.
 
         Parameters
         ----------
-        reference : str
-            ``"line"`` or ``"rigid"``, as for :func:`trackig_core.insertion_gain`.
+        reference : str, optional
+            ``"line"``, ``"rigid"`` or ``"stiff"``, as for :func:`trackig_core.solve`.
         summation : str
             ``"energy"`` or ``"coherent"``, as for :func:`trackig_core.insertion_gain`.
 
@@ -119,12 +128,16 @@ class Solution:
         Raises
         ------
         ValueError
-            If a choice is not one of the above.
+            If a choice is not one of the above, or the reference has no meaning for the design.
         """
+        reference = own_reference(self.design) if reference is None else reference
         known = self._gains.get((reference, summation))
         if known is None:
             loaded_track = self.natural_frequencies.loaded_track
-            known = insertion_gain(self.spectrum, self.design, loaded_track, reference, summation)
+            stiff = None
+            if reference == "stiff" and self.stiff_spectrum is not None:
+                stiff = self.stiff_spectrum(self.design)
+            known = insertion_gain(self.spectrum, self.design, loaded_track, reference, summation, stiff)
             self._gains[reference, summation] = known
         return known
 

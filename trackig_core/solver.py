@@ -13,9 +13,9 @@ from trackig_core.frequency_domain import batch_kernels, floquet_waves
 from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.frequency_domain.convergence import time_step_errors
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
-from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.frequency_domain.refinement import banded_spectrum, gain_of, stiff_spectrum
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
-from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
+from trackig_core.levels.insertion_gain import SUMMATIONS, check_choice, check_reference, own_reference
 from trackig_core.results import ForceSpectrum, NaturalFrequencies, TimeHistory
 from trackig_core.solution import Solution
 from trackig_core.time_domain import adaptive_grid
@@ -23,7 +23,7 @@ from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid
 from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
 from trackig_core.time_domain.time_stepping import simulate
 from trackig_core.track.catalogue import PRESETS
-from trackig_core.track.design import DesignError
+from trackig_core.track.design import ELEMENTS_PER_BAY, DesignError, TrackDesign, axle_elements
 
 POOR_FIT = 0.1
 """Relative error of a fitted loss factor above which the solution says so [-]."""
@@ -39,7 +39,7 @@ def solve(
     design: Track,
     fidelity: str = "paper",
     *,
-    reference: str = "line",
+    reference: str | None = None,
     summation: str = "energy",
     progress: Callable[[float], object] | None = None,
     cancelled: Callable[[], object] | None = None,
@@ -56,8 +56,10 @@ def solve(
         answer, with a second-order damping recursion; it says in ``grid`` and ``notes`` what it chose.
         ``"exact"``: the same lattice, infinitely long and in continuous time, solved frequency by
         frequency in closed form; nothing is stepped, so there are no time records.
-    reference : str
-        ``"line"`` (the paper's straight line) or ``"rigid"`` (the exact rigid track).
+    reference : str, optional
+        ``"line"`` (the paper's straight line; with a suspension it rises as the rigid track's), ``"rigid"``
+        (the exact rigid track) or ``"stiff"`` (a very stiff track on the same ground, under the same
+        vehicle). By default the line, or where the ground yields, which leaves no other, the stiff track.
     summation : str
         ``"energy"`` (squared support forces, the paper's) or ``"coherent"`` (forces).
     progress : callable, optional
@@ -81,11 +83,11 @@ def solve(
     DesignError
         If ``design`` is no design, or its exact solution has no bound for want of any loss.
     ValueError
-        If a choice is not one of the above.
+        If a choice is not one of the above, or the reference has no meaning for the design.
     """
     model = track_model(design)
     check_choice("fidelity", fidelity, FIDELITIES)
-    check_choice("reference", reference, REFERENCES)
+    check_reference(model.design, own_reference(model.design) if reference is None else reference)
     check_choice("summation", summation, SUMMATIONS)
     grid: Grid | None = None
     history: TimeHistory | None = None
@@ -114,14 +116,15 @@ def solve(
     return Solution(
         design=model.design,
         fidelity=fidelity,
-        gain=insertion_gain(spectrum, model.design, frequencies.loaded_track, reference, summation),
+        gain=gain_of(model, spectrum, reference, summation),
         spectrum=spectrum,
         natural_frequencies=_observed(model, frequencies, spectrum, history),
         pad_law=model.pad,
         boot_law=model.boot,
         grid=grid,
         history=history,
-        notes=notes + _fit_notes(model),
+        notes=notes + _fit_notes(model) + _axle_notes(model.design),
+        stiff_spectrum=stiff_spectrum,
     )
 
 
@@ -150,6 +153,16 @@ def _fit_notes(model: TrackModel) -> tuple[str, ...]:
         for part, law in zip(("pad", "boot"), model.springs, strict=False)
         if law.worst_error > POOR_FIT
     )
+
+
+def _axle_notes(design: TrackDesign) -> tuple[str, ...]:
+    """Return where the axles stand, if not where they were asked to."""
+    dx = design.fastener_spacing / ELEMENTS_PER_BAY
+    stand = [element * dx for element in axle_elements(design.axle_positions, design.fastener_spacing)]
+    if np.allclose(stand, design.axle_positions, rtol=0.0, atol=1e-3 * dx):
+        return ()
+    places = ", ".join(f"{each:.3g}" for each in stand)
+    return (f"axles stand on the nearest rail elements, {dx:.3g} m apart: at {places} m",)
 
 
 def _extension_notes(grid: Grid, history: TimeHistory) -> tuple[str, ...]:

@@ -18,9 +18,11 @@ from numpy.typing import ArrayLike
 
 from trackig_core.arrays import AnyArray, ComplexArray, RealArray
 from trackig_core.frequency_domain import kernels
+from trackig_core.frequency_domain.axles import contact_forces, loaded_rail
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.results import ForceSpectrum
+from trackig_core.track.design import ONE_AXLE
 from trackig_core.track.fields import DesignError
 
 NEPER = 20 / np.log(10)
@@ -193,11 +195,11 @@ def contact_force(design: Track, frequency: ArrayLike, lattice: Lattice = INFINI
         Contact force per unit roughness [N/m].
     """
     model = track_model(design)
-    return _contact_force(model, waves(model, frequency, lattice))
+    return _contact_force(model, waves(model, frequency, lattice), lattice)
 
 
-def _contact_force(model: TrackModel, rail: Waves) -> ComplexArray:
-    wheel = -1 / (model.design.wheel_mass * rail.frequency_squared)
+def _contact_force(model: TrackModel, rail: Waves, lattice: Lattice) -> ComplexArray:
+    wheel = 1 / model.above(rail.frequency, lattice)
     return 1 / (1 / model.design.contact_stiffness + rail.receptance() + wheel)
 
 
@@ -224,7 +226,7 @@ def support_force(
     """
     model = track_model(design)
     rail = waves(model, frequency, lattice)
-    return _contact_force(model, rail) * rail.transfer * rail.receptance(support)
+    return _contact_force(model, rail, lattice) * rail.transfer * rail.receptance(support)
 
 
 def block_to_rail(design: Track, frequency: RealArray) -> RealArray:
@@ -277,7 +279,18 @@ def exact_spectrum(
     model = track_model(design)
     rail = waves(model, frequency, lattice)
     # the step's own spectrum is 1/(i w), in discrete time dt/(1 - exp(-i w dt)): both of magnitude 1/w
-    per_receptance = np.abs(_contact_force(model, rail) * rail.transfer * step) ** 2 / rail.frequency_squared
+    if model.design.axle_positions != ONE_AXLE:
+        loaded = loaded_rail(model, rail, lattice)
+        forces = contact_forces(model, loaded, lattice)
+        per_displacement = np.abs(rail.transfer * step) ** 2 / rail.frequency_squared
+        return ForceSpectrum(
+            frequency=rail.frequency,
+            energy=per_displacement * loaded.energy_sum(forces),
+            coherent_energy=per_displacement * np.sum(np.abs(loaded.coherent_sum(forces)) ** 2, axis=0),
+            step=step,
+        )
+    per_receptance = np.abs(_contact_force(model, rail, lattice) * rail.transfer * step) ** 2
+    per_receptance = per_receptance / rail.frequency_squared
     return ForceSpectrum(
         frequency=rail.frequency,
         energy=per_receptance * rail.energy_sum(),

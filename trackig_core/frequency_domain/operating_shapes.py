@@ -20,13 +20,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.frequency_domain.axles import bay_shapes
 from trackig_core.frequency_domain.floquet_waves import Waves, contact_force, waves
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.track_model import Track, track_model
-from trackig_core.track.design import TrackDesign
-
-_FOURTH_DIFFERENCE = ((-2, 1.0), (-1, -4.0), (0, 6.0), (1, -4.0), (2, 1.0))
-"""Offset and weight of the neighbours by which a rail element is bent [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +129,7 @@ def rail_receptance(
     """
     model = track_model(design)
     track = waves(model, frequency, lattice)
-    shapes = _bay_shapes(model.design, track, lattice.elements_per_bay)
+    shapes = bay_shapes(model.design, track, lattice.elements_per_bay)
     away = np.abs(np.asarray(element))
     if lattice.bays is None:
         shape = _wave(track, shapes, away)
@@ -149,23 +146,3 @@ def _wave(track: Waves, shapes: ComplexArray, element: NDArray[np.int_]) -> Comp
     """Return both waves at given elements (elements, 2, frequencies) [-]."""
     bay, within = np.divmod(element, len(shapes))
     return shapes[within] * track.multipliers ** bay[..., None, None]
-
-
-def _bay_shapes(design: TrackDesign, track: Waves, per_bay: int) -> ComplexArray:
-    """Return both waves within one bay, 1 over the support that it begins with (per_bay, 2, frequencies)."""
-    dx = design.fastener_spacing / per_bay
-    inertia = design.rail.mass_per_metre * dx**4 / design.rail.bending_stiffness * track.frequency_squared
-    multipliers = track.multipliers
-    matrix = np.zeros((*multipliers.shape, per_bay - 1, per_bay - 1), dtype=complex)
-    load = np.zeros((*multipliers.shape, per_bay - 1, 1), dtype=complex)
-    for row in range(per_bay - 1):
-        matrix[..., row, row] -= inertia
-        for offset, weight in _FOURTH_DIFFERENCE:
-            bay, within = divmod(row + 1 + offset, per_bay)
-            share = weight * multipliers**bay
-            if within == 0:
-                load[..., row, 0] -= share
-            else:
-                matrix[..., row, within - 1] += share
-    between = np.linalg.solve(matrix, load)[..., 0]
-    return np.concatenate([np.ones((1, *multipliers.shape)), np.moveaxis(between, -1, 0)])

@@ -62,7 +62,7 @@ def check_axles(positions: object, spacing: float) -> tuple[float, ...]:
     Raises
     ------
     DesignError
-        If they are no numbers, too many, out of range, or closer than the rail's elements.
+        If they are no numbers, too many, out of range, or closer than rail elements.
     """
     allowed = f"1 to {MOST_AXLES} positions in m, such as (0.0, 2.4)"
     if isinstance(positions, str | numbers.Number) or not isinstance(positions, Iterable):
@@ -70,7 +70,10 @@ def check_axles(positions: object, spacing: float) -> tuple[float, ...]:
     numbered = tuple(positions)
     if not 1 <= len(numbered) <= MOST_AXLES:
         raise DesignError("axle_positions", numbered, allowed)
-    checked = tuple(check_number("axle_positions", each) for each in numbered)
+    try:
+        checked = tuple(check_number("axle_position", each) for each in numbered)
+    except DesignError as error:
+        raise DesignError("axle_positions", numbered, f"positions, each {error.allowed}") from None
     if len(set(axle_elements(checked, spacing))) < len(checked):
         apart = f"positions of which no two fall on the same rail element, {spacing / ELEMENTS_PER_BAY:.3g} m"
         raise DesignError("axle_positions", checked, apart)

@@ -70,10 +70,10 @@ GROUND_FIELDS = (
 """Numbers of the ground under a support."""
 
 AXLE_FIELDS = (
-    Field("axle_positions", "m", -30.0, 30.0, "axle_positions_m"),
+    Field("axle_position", "m", -30.0, 30.0, "axle_positions_m"),
     Field("speed", "m/s", 1.0, 150.0, "speed_m_per_s"),
 )
-"""Numbers of the axles: position of each, and speed."""
+"""Numbers of the axles: position of each, in a list, and speed."""
 
 _HALF_SPACE_FIELDS = (
     Field("radius", "m", 0.01, 10.0, "radius_m"),

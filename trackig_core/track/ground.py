@@ -89,5 +89,5 @@ GROUNDS = named(
         "soft clay": Ground.half_space(FOOT_RADIUS, 20e6, 0.49, 1700.0),
     }
 )
-"""Grounds by name, by the half-space formula for :data:`FOOT_RADIUS`. Modulus, Poisson's ratio and density are
-generic: round figures of the kind (shear waves at 910, 270 and 110 m/s), not those of a site."""
+"""Grounds by name, by the half-space formula for :data:`FOOT_RADIUS`. Modulus, Poisson's ratio and density
+are generic: round figures of the kind (shear waves at 910, 270 and 110 m/s), not those of a site."""

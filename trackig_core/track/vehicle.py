@@ -1,14 +1,15 @@
 """What stands above and beside the wheel: suspension, bogie and body, other axles. SI units, Hz.
 
-Per wheel: unsprung mass m_w, primary suspension k1, c1, its share m1 of the bogie, secondary suspension k2, c2
-and its share m2 of the body. Looking up from the contact, with s = k + i w c (time dependence exp(+i w t)),
+Per wheel: unsprung mass m_w, primary suspension k1, c1, its share m1 of the bogie, secondary suspension
+k2, c2 and its share m2 of the body. Looking up from the contact, with s = k + i w c (time dependence
+exp(+i w t)),
 
     D(w) = -m_w w^2 + s1 A / (s1 + A),    A = -m1 w^2 + s2 B / (s2 + B),    B = -m2 w^2
 
 is the force on the wheel per displacement of it. Without suspension D = -m_w w^2.
 
-Figures of whole vehicles are shared out by wheel: an axlebox's primary suspension, a quarter of a bogie frame,
-half of one side's secondary suspension, an eighth of a body on two bogies.
+Figures of whole vehicles are shared out by wheel: an axlebox's primary suspension, a quarter of a bogie
+frame, half of one side's secondary suspension, an eighth of a body on two bogies.
 """
 
 from __future__ import annotations
