@@ -21,9 +21,10 @@ from trackig_core.solution import Solution
 from trackig_core.time_domain import adaptive_grid
 from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid
 from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
-from trackig_core.time_domain.time_stepping import simulate
+from trackig_core.time_domain.time_stepping import Ending, simulate
 from trackig_core.track.catalogue import PRESETS
 from trackig_core.track.design import ELEMENTS_PER_BAY, DesignError, TrackDesign, axle_elements
+from trackig_core.track.ground import GROUNDS
 
 POOR_FIT = 0.1
 """Relative error of a fitted loss factor above which the solution says so [-]."""
@@ -97,20 +98,19 @@ def solve(
     elif fidelity == "live":
         chosen = adaptive_grid.plan(model)
         grid = chosen.grid
-        history = simulate(
+        history, spectrum = _stepped(
             model,
             grid,
+            adaptive_grid.PADDING,
+            progress,
+            cancelled,
             memory_order=adaptive_grid.MEMORY_ORDER,
-            ending=adaptive_grid.Settled(),
-            progress=progress,
-            cancelled=cancelled,
+            ending=adaptive_grid.Settled,
         )
-        spectrum = force_spectrum(history, adaptive_grid.PADDING)
         notes = _plan_notes(chosen, history)
     else:
         grid = make_grid(model)
-        history = simulate(model, grid, progress=progress, cancelled=cancelled)
-        spectrum = force_spectrum(history)
+        history, spectrum = _stepped(model, grid, 1, progress, cancelled)
         notes = grid.notes + _extension_notes(grid, history) + _step_notes(model, grid)
     frequencies = natural_frequencies(model)
     return Solution(
@@ -123,9 +123,60 @@ def solve(
         boot_law=model.boot,
         grid=grid,
         history=history,
-        notes=notes + _fit_notes(model) + _axle_notes(model.design),
+        notes=notes
+        + _fit_notes(model)
+        + _axle_notes(model.design)
+        + (() if history is None else _record_notes(model.design)),
         stiff_spectrum=stiff_spectrum,
     )
+
+
+def _stepped(
+    model: TrackModel,
+    grid: Grid,
+    padding: float,
+    progress: Callable[[float], object] | None,
+    cancelled: Callable[[], object] | None,
+    memory_order: int = 1,
+    ending: Callable[[], Ending] | None = None,
+) -> tuple[TimeHistory, ForceSpectrum]:
+    """Step a track through time, and return the record and the spectrum.
+
+    Wheels whose roughness is independent are excited one after the other, each in a run of its own, and their
+    energies add; the record is then that of the first.
+    """
+    wheels = len(model.design.axle_positions)
+    independent = model.design.speed is None and wheels > 1
+    first: TimeHistory | None = None
+    spectra: list[ForceSpectrum] = []
+    for wheel in range(wheels if independent else 1):
+        history = simulate(
+            model,
+            grid,
+            memory_order=memory_order,
+            rough_wheel=wheel if independent else None,
+            ending=None if ending is None else ending(),
+            progress=_share(progress, wheel, wheels) if independent else progress,
+            cancelled=cancelled,
+        )
+        first = first or history
+        spectra.append(force_spectrum(history, padding, like=first))
+    assert first is not None
+    if not independent:
+        return first, spectra[0]
+    summed = replace(
+        spectra[0],
+        energy=np.sum([each.energy for each in spectra], axis=0),
+        coherent_energy=np.sum([each.coherent_energy for each in spectra], axis=0),
+    )
+    return first, summed
+
+
+def _share(
+    progress: Callable[[float], object] | None, done: int, runs: int
+) -> Callable[[float], object] | None:
+    """Return what reports the progress of one of several runs as that of all."""
+    return None if progress is None else lambda fraction: progress((done + fraction) / runs)
 
 
 def _observed(
@@ -153,6 +204,13 @@ def _fit_notes(model: TrackModel) -> tuple[str, ...]:
         for part, law in zip(("pad", "boot"), model.springs, strict=False)
         if law.worst_error > POOR_FIT
     )
+
+
+def _record_notes(design: TrackDesign) -> tuple[str, ...]:
+    """Return what the record shows where wheels whose roughness is independent are excited one by one."""
+    if design.speed is not None or len(design.axle_positions) == 1:
+        return ()
+    return ("independent roughness: energies of one run per axle are summed; the record is the first axle's",)
 
 
 def _axle_notes(design: TrackDesign) -> tuple[str, ...]:
@@ -213,7 +271,9 @@ def _step_notes(model: TrackModel, grid: Grid) -> tuple[str, ...]:
 def compile_kernels() -> None:
     """Compile every kernel, or load it from Numba's cache on disk, by solving one track in every way."""
     design = PRESETS["booted-block-low-mass"]
-    simulate(design, make_grid(design, bays=FEWEST_BAYS, record=0.25))
+    surrounded = design.replace(axle_positions=(0.0, 0.6), ground=GROUNDS["rock"])
+    for each in (design, surrounded):
+        simulate(each, make_grid(each, bays=FEWEST_BAYS, record=0.25))
     banded_spectrum(design)
     floquet_waves.receptance(design, [50.0])
     solve_many(design)

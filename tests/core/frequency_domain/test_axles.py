@@ -149,8 +149,8 @@ def test_rigid_ground_is_the_limit_of_very_stiff_ground():
     hard = BLOCK.replace(ground=tig.Ground(1e13, 1e3, 0.0))
     frequency = np.geomspace(5, 500, 50)
     rigid = exact_spectrum(BLOCK, frequency, 1.0)
-    assert exact_spectrum(hard, frequency, 1.0).energy == pytest.approx(rigid.energy, rel=2e-5)
-    assert np.abs(banded_gain(hard).levels - banded_gain(BLOCK, reference="rigid").levels).max() < 0.01
+    assert exact_spectrum(hard, frequency, 1.0).energy == pytest.approx(rigid.energy, rel=1e-4)
+    assert np.abs(banded_gain(hard).levels - banded_gain(BLOCK, reference="rigid").levels).max() < 0.02
 
 
 def test_a_hardly_sprung_bogie_is_no_bogie():
