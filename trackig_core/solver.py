@@ -236,7 +236,7 @@ def _decay_notes(history: TimeHistory) -> tuple[str, ...]:
     if history.decayed:
         return ()
     record = history.steps * history.time_step
-    return (f"the force had not died down by 80 dB at {record:.3g} s: do not trust sharp resonances",)
+    return (f"the force had not died down at {record:.3g} s: do not trust sharp resonances",)
 
 
 def _plan_notes(chosen: adaptive_grid.Plan, history: TimeHistory) -> tuple[str, ...]:
