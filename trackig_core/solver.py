@@ -107,11 +107,12 @@ def solve(
             memory_order=adaptive_grid.MEMORY_ORDER,
             ending=adaptive_grid.Settled,
         )
-        notes = _plan_notes(chosen, history)
+        notes = _plan_notes(chosen, history) + _record_notes(model.design)
     else:
         grid = make_grid(model)
         history, spectrum = _stepped(model, grid, 1, progress, cancelled)
         notes = grid.notes + _extension_notes(grid, history) + _step_notes(model, grid)
+        notes += _record_notes(model.design)
     frequencies = natural_frequencies(model)
     return Solution(
         design=model.design,
@@ -123,10 +124,7 @@ def solve(
         boot_law=model.boot,
         grid=grid,
         history=history,
-        notes=notes
-        + _fit_notes(model)
-        + _axle_notes(model.design)
-        + (() if history is None else _record_notes(model.design)),
+        notes=notes + _fit_notes(model) + _axle_notes(model.design),
         stiff_spectrum=stiff_spectrum,
     )
 

@@ -73,20 +73,20 @@ class Lattice:
         In discrete time velocities stand half-way between displacements, and a dashpot feels the mean of the
         velocity before and the velocity after.
         """
-        if self.time_step is None:
-            return 2j * np.pi * frequency
-        rate: ComplexArray = 1j / self.time_step * np.sin(2 * np.pi * frequency * self.time_step)
-        return rate
+        rate = 2 * np.pi * frequency
+        if self.time_step is not None:
+            rate = np.sin(rate * self.time_step) / self.time_step
+        return np.asarray(1j * rate, dtype=complex)
 
     def foot_derivative(self, frequency: RealArray) -> ComplexArray:
         """Return the velocity per displacement at the foot of a support (frequencies,) [1/s].
 
         In discrete time the foot follows the trapezoidal rule, which needs no mass to be stable.
         """
-        if self.time_step is None:
-            return 2j * np.pi * frequency
-        rate: ComplexArray = 2j / self.time_step * np.tan(np.pi * frequency * self.time_step)
-        return rate
+        rate = 2 * np.pi * frequency
+        if self.time_step is not None:
+            rate = np.tan(rate * self.time_step / 2) * 2 / self.time_step
+        return np.asarray(1j * rate, dtype=complex)
 
     def delay(self, frequency: RealArray, time: float) -> ComplexArray:
         """Return the factor by which roughness that comes later is delayed (frequencies,) [-].

@@ -331,7 +331,7 @@ class Run:
     ) -> None:
         self.filter = low_pass(grid.dt)
         model = track_model(design)
-        choices = {"comb": self.filter.comb, "comb_factor": self.filter.comb_factor}
+        comb, comb_factor = self.filter.comb, self.filter.comb_factor
         self._advance: Callable[..., None]
         self._layout: Layout | VehicleLayout
         self._state: State | vehicle_layout.State
@@ -339,7 +339,13 @@ class Run:
         if model.is_simplified:
             self._advance, self._layout = kernels.advance, Layout(grid)
             self._state, self._constants = at_rest(
-                model, grid, memory_order=memory_order, step=step, probes=probes, **choices
+                model,
+                grid,
+                memory_order=memory_order,
+                step=step,
+                probes=probes,
+                comb=comb,
+                comb_factor=comb_factor,
             )
             self.last_onset = 0.0
         else:
@@ -350,7 +356,15 @@ class Run:
                 for each in (_recursion(law, grid.dt, memory_order) for law in (model.pad, model.boot))
             )
             self._state, self._constants = vehicle_layout.at_rest(
-                model, grid, pad, boot, step=step, probes=probes, rough_wheel=rough_wheel, **choices
+                model,
+                grid,
+                pad,
+                boot,
+                step=step,
+                probes=probes,
+                comb=comb,
+                comb_factor=comb_factor,
+                rough_wheel=rough_wheel,
             )
             when = vehicle_layout.onsets(model.design, rough_wheel)
             self.last_onset = float(when[np.isfinite(when)].max())

@@ -233,7 +233,7 @@ def axle_matrices(design: TrackDesign, time_step: float) -> tuple[RealArray, Rea
         ):
             for lower, value in enumerate(values):
                 matrix[lower : lower + 2, lower : lower + 2] += value * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    after = np.linalg.inv(np.diag(masses) + dashpots * time_step / 2)
+    after: RealArray = np.asarray(np.linalg.inv(np.diag(masses) + dashpots * time_step / 2), dtype=float)
     keep: RealArray = after @ (np.diag(masses) - dashpots * time_step / 2)
     return keep, -time_step * after @ springs, time_step * after[:, 0]
 
