@@ -4,7 +4,7 @@ The paper's Figure 1 justifies its simplified model by taking things away one by
 body, frequency-dependent damping, what lies below. Here they are put back for one design: the simplified
 model (one wheel, unsprung mass only, rigid ground, constant loss factors); + measured damping, where the
 design has any; + suspension; + other axles; + ground; and, beside them, the one-dimensional model, which
-leaves the rail out too. What the design does not say is filled in with generic figures of the catalogue, and said.
+leaves the rail out too. What the design does not say is filled in with figures of the catalogue, and said.
 
 Every rung is computed by the frequency-domain solution and refers to the very stiff track on the same ground
 and under the same vehicle; on rigid ground that is the rigid track. The last rung is no tunnel: neighbouring
