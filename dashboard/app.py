@@ -102,7 +102,7 @@ def build(store=None, live_store=None):
         SaveAndShare: partial(SaveAndShare, snapshot, exchange),
     }
     status = Status(outcome, runner.stop, runner.request)
-    sidebar = [DesignBar(inputs, pins, browser), Controls(inputs)]
+    sidebar = [DesignBar(inputs, pins, snapshot.steps, browser), Controls(inputs)]
     return page(sidebar, status, tabs(snapshot, makers, exchange), browser, exchange)
 
 

@@ -4,22 +4,17 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 """
 
 import gc
-import logging
-
-from tornado.ioloop import IOLoop
-from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
 from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
-
-log = logging.getLogger(__name__)
+from dashboard.server_log import leave_out_departures
 
 
 def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     """Have kernels compiled and the presets solved while pages are served, the opening one first."""
-    IOLoop.current().asyncio_loop.set_exception_handler(handle_exception)
+    leave_out_departures()
     compiled()
     # here and not on a thread: an import that sessions run into half-way fails for them
     overlays.load()
@@ -27,22 +22,6 @@ def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
     gc.freeze()
     for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
         shared_store().request((tig.PRESETS[key], AT_REST))
-
-
-def handle_exception(loop, context):
-    """Log an exception that nobody caught; a reader who left while a picture was on its way is none.
-
-    Parameters
-    ----------
-    loop : asyncio.AbstractEventLoop
-        The server's loop.
-    context : dict
-        What it knows of the exception.
-    """
-    if isinstance(context.get("exception"), WebSocketClosedError):
-        log.debug("A browser left before its message was sent")
-    else:
-        loop.default_exception_handler(context)
 
 
 def on_server_unloaded(server_context):  # noqa: ARG001

@@ -164,6 +164,7 @@ class Exchange(Scripted):
             # it was in the browser's memory, where anybody may have written
             log.info("A page's memory was refused", exc_info=True)
             notify("warning", NOT_RESTORED)
+        self._snapshot.steps.restart()
         self._note()
         self._send_msg({"kind": "keep"})
 

@@ -1,9 +1,10 @@
 """Turns changed inputs into a new outcome, off the event loop.
 
 While inputs move, each newest state is solved at live fidelity, in some milliseconds, and older ones that
-still wait are dropped: pictures follow the hand. When inputs rest, the paper's run of the same design takes
-the picture's place. A paper run under way gives way to newer inputs at once. Solutions come from stores
-that all sessions share.
+still wait are dropped: pictures follow the hand. Where little is lost and a live run takes longer, the exact
+curve is drawn at once, and the force when the run is there. When inputs rest, the paper's run of the same
+design takes the picture's place. A paper run under way gives way to newer inputs at once. Solutions come from
+stores that all sessions share.
 
 The last good picture stays until a better one is there, and no picture follows one of newer
 inputs.
@@ -18,15 +19,17 @@ import param
 
 import trackig_core as tig
 from dashboard.compute.latest import Latest, publish, readable
-from dashboard.compute.workers import AT_REST, MOVING, compiled
+from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, compiled
 from dashboard.fields import PHYSICAL
 
 REST = 0.2
 """Seconds without a change after which inputs are at rest."""
 
+SOON = 0.06
+"""Seconds for which a live run is waited for before the exact curve is drawn."""
+
 PATIENCE = 0.5
 """Seconds of work after which a live run, under light damping, is given up for the paper's."""
-
 
 LOOK_EVERY = 0.1
 """Seconds between looks at a solve under way."""
@@ -76,6 +79,7 @@ class Runner(param.Parameterized):
         self._live_store = live_store
         self._latest = Latest(self._solve)
         self._stopping = False
+        self._live_is_slow = False
         self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
         self.param.watch(self._on_change, "requests")
 
@@ -138,12 +142,33 @@ class Runner(param.Parameterized):
 
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
-        # what live fidelity refuses or gives up, the paper's run answers or explains
-        with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
-            summary, _ = await self._obtain((design, MOVING), document)
-            self._publish(document, **self._success(design, summary, from_cache=False))
+        live = asyncio.ensure_future(self._obtain((design, MOVING), document))
+        try:
+            # what live fidelity refuses or gives up, the paper's run answers or explains
+            with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
+                await self._bridge(live, design, document)
+                summary, _ = await live
+                self._publish(document, **self._success(design, summary, from_cache=False))
+        finally:
+            _abandon(live)
         if await self._news_within(REST):
             raise _SupersededError
+
+    async def _bridge(self, live, design, document):
+        """Draw the exact curve while a live run is awaited for long; what is newer then ends the wait.
+
+        Where the last one took long, this one will: its exact curve is drawn without waiting.
+        """
+        began = time.monotonic()
+        await asyncio.wait({live}, timeout=0 if self._live_is_slow else SOON)
+        if not live.done():
+            summary, from_cache = await self._obtain((design, AT_ONCE), document)
+            if not live.done():
+                self._publish(document, **self._success(design, summary, from_cache))
+                await self._look_up(live, whatever_is_new=True, seconds=PATIENCE)
+                if not live.done() and self._latest.pending:
+                    raise _SupersededError
+        self._live_is_slow = time.monotonic() - began > SOON
 
     async def _news_within(self, seconds):
         """Wait some time at most, and return whether newer inputs arrived."""
@@ -169,7 +194,7 @@ class Runner(param.Parameterized):
         return shown if shown is not None and shown.design == preset else self._store.kept((preset, AT_REST))
 
     async def _obtain(self, key, document):
-        store = self._live_store if key[1] == MOVING else self._store
+        store = self._store if key[1] == AT_REST else self._live_store
         job = store.request(key)
         try:
             await self._wait(job, document)
@@ -181,7 +206,7 @@ class Runner(param.Parameterized):
         future = asyncio.wrap_future(job.future)
         # an abandoned job may still raise; nobody is left to hear it
         future.add_done_callback(lambda done: done.cancelled() or done.exception())
-        moving = job.key[1] == MOVING
+        moving = job.key[1] != AT_REST
         while not future.done():
             await self._look_up(future, whatever_is_new=not moving)
             if future.done():
@@ -196,14 +221,20 @@ class Runner(param.Parameterized):
             if worked > LONG:
                 self._publish(document, busy=True, progress=job.fraction)
 
-    async def _look_up(self, future, whatever_is_new):
+    async def _look_up(self, future, whatever_is_new, seconds=LOOK_EVERY):
         """Wait until a solve is done, for a while at most, or until newer inputs arrive."""
         news = asyncio.ensure_future(self._latest.news.wait())
         try:
             waited_for = {future, news} if whatever_is_new else {future}
-            await asyncio.wait(waited_for, timeout=LOOK_EVERY, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait(waited_for, timeout=seconds, return_when=asyncio.FIRST_COMPLETED)
         finally:
             news.cancel()
 
     def _publish(self, document, **changes):
         publish(self.outcome, document, **changes)
+
+
+def _abandon(task):
+    """Give a task up, or what it raised if nobody asked."""
+    if not task.cancel() and not task.cancelled():
+        task.exception()

@@ -15,6 +15,9 @@ AT_REST = "paper"
 MOVING = "live"
 """Fidelity of the pictures that follow the hand."""
 
+AT_ONCE = "exact"
+"""Fidelity of the curves that are drawn where a live run takes too long to follow the hand."""
+
 CAPACITY = 128
 """Pictures kept; one holds 0.2 MB for a record of 2 s, 1.6 MB for one of 16 s."""
 
@@ -34,7 +37,7 @@ def solve_summary(key, progress, cancelled):
 
     Returns
     -------
-    Picture
+    SolutionSummary
         The solution without its time history, and the two forces that are drawn; none of an exact one.
     """
     design, fidelity = key
@@ -64,5 +67,6 @@ def shared_store():
 @functools.cache
 def shared_live_store():
     """Return the store of pictures that follow the hand; its own threads wait for nobody's paper run."""
-    threads = ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="live")
+    # one more than there are processors: an exact curve, a matter of milliseconds, waits for no live run
+    threads = ThreadPoolExecutor(max_workers=1 + (os.cpu_count() or 1), thread_name_prefix="live")
     return SolutionStore(solve_summary, threads, LIVE_CAPACITY)

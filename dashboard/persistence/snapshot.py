@@ -7,6 +7,7 @@ import param
 
 import trackig_core as tig
 from dashboard.persistence import link, studies
+from dashboard.session.steps import Steps
 
 
 class SessionSnapshot(param.Parameterized):
@@ -24,6 +25,11 @@ class SessionSnapshot(param.Parameterized):
         Specification, source and the study's name.
     tabs : iterable of str
         Names of the page's tabs, in small letters; the first is open.
+
+    Attributes
+    ----------
+    steps : Steps
+        What of it can be undone.
     """
 
     tab = param.Selector(objects=[""], doc="The tab that is open.")
@@ -31,6 +37,7 @@ class SessionSnapshot(param.Parameterized):
     def __init__(self, inputs, definition, pins, assessment, tabs=("explore",)):
         super().__init__()
         self.inputs, self.definition, self.pins, self.assessment = inputs, definition, pins, assessment
+        self.steps = Steps(inputs, definition, pins, assessment)
         self.param.tab.objects = list(tabs)
         self.tab = self.param.tab.objects[0]
 
@@ -89,6 +96,7 @@ class SessionSnapshot(param.Parameterized):
         alone = view.pop("alone", "0") == "1"
         self._set(found.values, found.pins, found.base, view)
         self.pins.alone = alone and bool(found.pins)
+        self.steps.restart()
         return found.problems
 
     def open(self, data):
@@ -105,10 +113,11 @@ class SessionSnapshot(param.Parameterized):
             If the file holds no study, or one that the page cannot show; then nothing has changed.
         """
         opened = studies.from_study(tig.Study.from_toml(data))
-        self._set(opened.values, opened.pins, opened.base, opened.view)
-        self.assessment.param.update(
-            specification=opened.specification, source=opened.source, title=opened.name
-        )
+        with self.steps.as_one():
+            self._set(opened.values, opened.pins, opened.base, opened.view)
+            self.assessment.param.update(
+                specification=opened.specification, source=opened.source, title=opened.name
+            )
 
     def _set(self, values, pins, base, view):
         self.pins.replace_all(pins, base)

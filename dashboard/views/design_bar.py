@@ -1,9 +1,7 @@
 """The bar above the sliders: undo, redo, and pinning the current design under a name.
 
-A step of the history is what a hand did in one go, whether it dragged, typed or chose.
+What a step is, :mod:`dashboard.session.steps` says.
 """
-
-import time
 
 import panel as pn
 import panel_material_ui as pmui
@@ -11,8 +9,7 @@ from panel.viewable import Viewer
 
 from dashboard import theme
 from dashboard.client.exchange import notify
-from dashboard.fields import INPUTS, PRESET_LABELS
-from dashboard.session.history import History
+from dashboard.fields import PRESET_LABELS
 from dashboard.session.pins import PinError
 from trackig_core.names import LONGEST_NAME
 
@@ -26,21 +23,30 @@ class DesignBar(Viewer):
         The current design.
     pins : Pins
         Where it is pinned.
+    steps : Steps
+        What is undone and redone.
     browser : Browser
         Says when keys ask for undo or redo.
-    clock : callable
-        Any clock that does not go back [s].
     """
 
-    def __init__(self, inputs, pins, browser, clock=time.monotonic):
+    def __init__(self, inputs, pins, steps, browser):
         super().__init__()
-        self._inputs, self._pins, self._clock = inputs, pins, clock
-        self._history = History(inputs.to_values())
+        self._inputs, self._pins = inputs, pins
         self.undo = pmui.Button(
-            label="Undo", icon="undo", description="Undo (Ctrl+Z)", on_click=self._undo, **STEP
+            label="Undo",
+            icon="undo",
+            description="Undo (Ctrl+Z)",
+            on_click=steps.undo,
+            disabled=steps.param.can_undo.rx.not_(),
+            **STEP,
         )
         self.redo = pmui.Button(
-            label="Redo", icon="redo", description="Redo (Ctrl+Y)", on_click=self._redo, **STEP
+            label="Redo",
+            icon="redo",
+            description="Redo (Ctrl+Y)",
+            on_click=steps.redo,
+            disabled=steps.param.can_redo.rx.not_(),
+            **STEP,
         )
         self.name_box = pmui.TextInput(
             label="Name of the design to be pinned",
@@ -61,28 +67,8 @@ class DesignBar(Viewer):
             on_click=self._pin,
             margin=(4, 0, 0, 0),
         )
-        inputs.param.watch(self._note, list(INPUTS))
-        browser.param.watch(self._undo, "undone")
-        browser.param.watch(self._redo, "redone")
-
-    def _note(self, *events):
-        names = {event.name for event in events}
-        self._history.note(self._inputs.to_values(), names, self._clock())
-        self._enable()
-
-    def _undo(self, _):
-        if self._history.can_undo:
-            self._inputs.take(self._history.undo())
-            self._enable()
-
-    def _redo(self, _):
-        if self._history.can_redo:
-            self._inputs.take(self._history.redo())
-            self._enable()
-
-    def _enable(self):
-        self.undo.disabled = not self._history.can_undo
-        self.redo.disabled = not self._history.can_redo
+        browser.param.watch(steps.undo, "undone")
+        browser.param.watch(steps.redo, "redone")
 
     def _pin(self, _):
         inputs = self._inputs
@@ -106,4 +92,4 @@ class DesignBar(Viewer):
         )
 
 
-STEP = {"size": "small", "variant": "text", "disabled": True, "margin": 0}
+STEP = {"size": "small", "variant": "text", "margin": 0}

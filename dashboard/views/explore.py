@@ -62,7 +62,7 @@ class Explore(Tab):
             )
             for parameter in (definition.param.summation, definition.param.reference)
         ]
-        outcome.param.watch(self._dim, ["problem", "progress"])
+        outcome.param.watch(self._dim, ["problem", "progress", "summary"])
         show = NextTick(self._show)
         # results follow the definition and the specification too
         assessment.param.watch(show, ["results", "preset"])
@@ -82,7 +82,8 @@ class Explore(Tab):
 
     def _show_forces(self):
         current = self._assessment.current
-        self.force.show(current, self._assessment.shown_pins)
+        if current.summary.time is not None:  # an exact curve leaves the last force as it is, dimmed
+            self.force.show(current, self._assessment.shown_pins)
         words, variant = FIDELITY_CHIPS[current.summary.solution.fidelity]
         self.fidelity.param.update(label=words, variant=variant, visible=True)
 
@@ -97,8 +98,11 @@ class Explore(Tab):
         )
 
     def _dim(self, *_):
+        summary, stale = self._outcome.summary, self._outcome.stale
+        without_force = summary is not None and summary.time is None
         for pane in (*self.panes, self.frequencies.pane):
-            pane.styles = theme.STALE if self._outcome.stale else theme.FRESH
+            is_old = stale or (without_force and pane is self.panes[1])
+            pane.styles = theme.STALE if is_old else theme.FRESH
 
     def build(self):
         """Return what is put on the page."""
@@ -140,7 +144,11 @@ class Explore(Tab):
         )
 
 
-FIDELITY_CHIPS = {"live": ("live run", "filled"), "paper": ("paper's run", "outlined")}
+FIDELITY_CHIPS = {
+    "live": ("live run", "filled"),
+    "exact": ("exact curve", "filled"),
+    "paper": ("paper's run", "outlined"),
+}
 """What the chip beside the title says of each fidelity, and how it looks."""
 
 WIDE, NARROW = {"xs": 12, "lg": 7}, {"xs": 12, "lg": 5}

@@ -98,7 +98,9 @@ def status_words(outcome):
         return "Solving …" if outcome.busy else "Not solved yet"
     summary = outcome.summary
     took = formats.duration_text(summary.seconds)
-    if summary.solution.fidelity == "live":
+    if summary.solution.fidelity == "exact":
+        words = f"Exact curve, solved in {took}; little is lost here, so that its force takes longer"
+    elif summary.solution.fidelity == "live":
         words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
     elif outcome.from_cache:
         words = "Paper's run, solved before"

@@ -67,7 +67,7 @@ class Subject(Viewer):
 
     def _follow(self, *_):
         summary = self.outcome.summary
-        if summary is None or (self.at_rest_only and summary.solution.fidelity == "live"):
+        if summary is None or (self.at_rest_only and summary.solution.fidelity != "paper"):
             return
         self.question.asked = self.ask(summary.design)
 

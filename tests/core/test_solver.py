@@ -285,7 +285,7 @@ def test_sharp_resonances_are_resolved(design):
 
 
 def test_what_rounding_drowns_is_refused(monkeypatch):
-    def drowned(_, frequency):
+    def drowned(_track, _recursions, _time_step, _bays, frequency):
         return np.array([frequency, -np.ones_like(frequency), np.ones_like(frequency)])
 
     monkeypatch.setattr(batch_kernels, "resolve_row", drowned)

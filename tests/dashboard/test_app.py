@@ -9,7 +9,6 @@ import panel as pn
 import pytest
 from bokeh.document import Document
 from panel.util import edit_readonly
-from tornado.websocket import WebSocketClosedError
 
 import dashboard
 import trackig_core as tig
@@ -144,17 +143,6 @@ class FakeStore:
 
     def close(self):
         self.closed = True
-
-
-def test_a_reader_who_leaves_is_no_error_and_all_else_is_logged(caplog):
-    async def fail(error):
-        asyncio.get_running_loop().set_exception_handler(app_hooks.handle_exception)
-        asyncio.get_running_loop().call_exception_handler({"message": "a task failed", "exception": error})
-
-    asyncio.run(fail(WebSocketClosedError()))
-    assert caplog.text == ""
-    asyncio.run(fail(ValueError("a mistake")))
-    assert "a mistake" in caplog.text
 
 
 def test_the_server_begins_with_the_opening_preset(monkeypatch):

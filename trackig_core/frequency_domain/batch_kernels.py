@@ -232,6 +232,130 @@ def force_energy(
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def lattice_stiffness(recursion: RealArray, delay: complex) -> complex:
+    """Return the dynamic stiffness of a spring as time stepping sees it [N/m].
+
+    Parameters
+    ----------
+    recursion : numpy.ndarray (7,)
+        Factor of the current strain [N/m], three decays [-] and three feeds [N/m] of the memory, see
+        :meth:`trackig_core.track.viscoelastic_law.Relaxation.recursion`.
+    delay : complex
+        exp(-i w dt) [-].
+
+    Returns
+    -------
+    complex
+        Dynamic stiffness [N/m].
+    """
+    stiffness = complex(recursion[0], 0.0)
+    for term in range(1, 4):
+        stiffness -= recursion[3 + term] * delay / (1.0 - recursion[term] * delay)
+    return stiffness
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def lattice_energy(
+    track: RealArray,
+    recursions: RealArray,
+    time_step: float,
+    bays: int,
+    frequency: RealArray,
+    count: int,
+    energy: RealArray,
+    coherent: RealArray,
+) -> float:
+    """Compute what :func:`force_energy` does for the time-stepping scheme itself, by its z-transform.
+
+    The sums over the supports of a ring are those of
+    :meth:`trackig_core.frequency_domain.floquet_waves.Waves.energy_sum`.
+
+    Parameters
+    ----------
+    track : numpy.ndarray (19,)
+        The track.
+    recursions : numpy.ndarray (2, 7)
+        Pad and boot as they are stepped, see :func:`lattice_stiffness`.
+    time_step : float
+        Time step [s].
+    bays : int
+        Supports around the ring; 0 for the infinite track.
+    frequency, count, energy, coherent
+        As in :func:`force_energy`.
+
+    Returns
+    -------
+    float
+        Largest factor of any wave from bay to bay [-].
+    """
+    block, bending, element_mass = track[BLOCK_MASS], track[BENDING], track[ELEMENT_MASS]
+    compliance, wheel = 1.0 / track[CONTACT], track[WHEEL_MASS]
+    longest = 0.0
+    for i in range(count):
+        angle = 2.0 * math.pi * frequency[i] * time_step
+        delay = complex(math.cos(angle), -math.sin(angle))
+        squared = (2.0 / time_step * math.sin(0.5 * angle)) ** 2
+        support = passed = lattice_stiffness(recursions[0], delay)
+        if block > 0.0:
+            pad, boot = support, lattice_stiffness(recursions[1], delay)
+            over = pad / (pad + boot - block * squared)
+            support, passed = over * (boot - block * squared), over * boot
+        q = element_mass * squared / bending
+        waves = bay_waves(q, support.real / bending, support.imag / bending)
+        m1, m2 = complex(waves[0], waves[1]), complex(waves[2], waves[3])
+        a1, a2 = complex(waves[4], waves[5]) / bending, complex(waves[6], waves[7]) / bending
+        longest = max(longest, abs(m1), abs(m2))
+        summed = a1 * (1.0 + m1) / (1.0 - m1) + a2 * (1.0 + m2) / (1.0 - m2)  # the same on line and ring
+        around1 = m1**bays if bays > 0 else 0.0j
+        around2 = m2**bays if bays > 0 else 0.0j
+        a1, a2 = a1 / (1.0 - around1), a2 / (1.0 - around2)
+        contact = compliance + a1 * (1.0 + around1) + a2 * (1.0 + around2) - 1.0 / (wheel * squared)
+        one = squared_modulus(a1) * shape_product(m1, m1, around1, around1, waves[8], bays).real
+        two = squared_modulus(a2) * shape_product(m2, m2, around2, around2, waves[9], bays).real
+        both = a1 * a2.conjugate() * shape_product(m1, m2, around1, around2, math.nan, bays)
+        per_receptance = squared_modulus(passed / contact) / squared
+        energy[i] = per_receptance * (one + two + 2.0 * both.real)
+        coherent[i] = per_receptance * squared_modulus(summed)
+    return longest
+
+
+@njit(nogil=True, cache=True, inline="always", error_model="numpy")
+def squared_modulus(number: complex) -> float:
+    """Return the squared magnitude of a complex number."""
+    return number.real * number.real + number.imag * number.imag
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def shape_product(
+    one: complex, other: complex, around: complex, other_around: complex, lost: float, bays: int
+) -> complex:
+    """Return the sum over all supports of one wave's shape times the conjugate of another's [-].
+
+    Parameters
+    ----------
+    one, other : complex
+        Factors of the waves from bay to bay [-].
+    around, other_around : complex
+        Their factors once around the ring [-]; zero on the infinite track.
+    lost : float
+        How much of its energy a wave with itself loses from bay to bay [-]; NaN for two waves.
+    bays : int
+        Supports around the ring; 0 for the infinite track.
+
+    Returns
+    -------
+    complex
+        The sum.
+    """
+    other, back = other.conjugate(), other_around.conjugate()
+    product = one * other
+    two_sided = (2.0 - lost) / lost + 0.0j if lost == lost else (1.0 + product) / (1.0 - product)
+    apart = other - one
+    opposite = bays * around / one if abs(apart) < 1e-9 else (back - around) / apart
+    return two_sided * (1.0 - around * back) + (one + other) * opposite
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def spring(track: RealArray, law: int, frequency: float) -> float:
     """Return Re K of the pad's or boot's law, which begins at a column of the track, at a frequency [N/m]."""
     angular = 2.0 * math.pi * frequency
@@ -522,6 +646,9 @@ def first_axis(
 @njit(nogil=True, cache=True, error_model="numpy")
 def refine(
     track: RealArray,
+    recursions: RealArray,
+    time_step: float,
+    bays: int,
     count: int,
     axis: RealArray,
     straight: BoolArray,
@@ -534,6 +661,9 @@ def refine(
     ----------
     track : numpy.ndarray (19,)
         The track.
+    recursions, time_step, bays
+        As in :func:`lattice_energy`; time step 0 for the infinite track in continuous time, which needs no
+        recursions.
     count : int
         Frequencies to begin with.
     axis : numpy.ndarray (3, capacity)
@@ -560,7 +690,10 @@ def refine(
             if not straight[i]:
                 spare[0, halved] = 0.5 * (axis[0, i] + axis[0, i + 1])
                 halved += 1
-        force_energy(track, spare[0], halved, spare[1], spare[2])  # the only call: it is compiled in here
+        if time_step > 0.0:
+            lattice_energy(track, recursions, time_step, bays, spare[0], halved, spare[1], spare[2])
+        else:
+            force_energy(track, spare[0], halved, spare[1], spare[2])  # the only call: it is compiled in here
         if turn == 0:
             axis[1:, :count] = spare[1:, :count]
             halved = 0
@@ -702,13 +835,14 @@ def solve_rows(
     axis, spare = np.empty((3, CAPACITY)), np.empty((3, CAPACITY))
     straight, spare_straight = np.empty(CAPACITY, np.bool_), np.empty(CAPACITY, np.bool_)
     frequencies, at = np.empty(FREQUENCIES), np.empty((3, 1))
+    not_stepped = np.zeros((2, 7))
     for row in range(tracks.shape[0]):
         track = tracks[row]
         natural_frequencies(track, frequencies, False)
         found[row, 0], found[row, 1] = frequencies[LOADED_TRACK], frequencies[COUPLED_BLOCK]
         loaded = frequencies[LOADED_TRACK]
         count, first = first_axis(loaded, edges, per_band, line_fraction, axis[0])
-        count = refine(track, count, axis, straight, spare, spare_straight)
+        count = refine(track, not_stepped, 0.0, 0, count, axis, straight, spare, spare_straight)
         while axis[0, first] < edges[0]:
             first += 1
         sound[row] = 1 if count <= MOST_FREQUENCIES else 0
@@ -725,13 +859,17 @@ def solve_rows(
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def resolve_row(track: RealArray, frequency: RealArray) -> RealArray:
+def resolve_row(
+    track: RealArray, recursions: RealArray, time_step: float, bays: int, frequency: RealArray
+) -> RealArray:
     """Refine the spectrum of one design.
 
     Parameters
     ----------
     track : numpy.ndarray (19,)
         The track.
+    recursions, time_step, bays
+        As in :func:`refine`.
     frequency : numpy.ndarray (frequencies,)
         Frequencies to begin with [Hz], ascending and greater than zero; all are kept.
 
@@ -744,6 +882,14 @@ def resolve_row(track: RealArray, frequency: RealArray) -> RealArray:
     axis, spare = np.empty((3, capacity)), np.empty((3, capacity))
     axis[0, : frequency.size] = frequency
     count = refine(
-        track, frequency.size, axis, np.empty(capacity, np.bool_), spare, np.empty(capacity, np.bool_)
+        track,
+        recursions,
+        time_step,
+        bays,
+        frequency.size,
+        axis,
+        np.empty(capacity, np.bool_),
+        spare,
+        np.empty(capacity, np.bool_),
     )
     return axis[:, :count].copy()

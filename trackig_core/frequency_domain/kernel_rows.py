@@ -1,4 +1,4 @@
-"""A track and its laws as rows of numbers: as compiled code takes them. SI units."""
+"""A track and its laws as rows of numbers: as compiled code takes them. SI units and s."""
 
 import numpy as np
 
@@ -25,6 +25,30 @@ def law_row(law: Relaxation | None) -> list[float]:
         return [0.0] * 7
     none = (0.0,) * (3 - len(law.strengths))
     return [law.instantaneous, *law.strengths, *none, *law.times, *none]
+
+
+def recursion_row(law: Relaxation | None, time_step: float, order: int) -> RealArray:
+    """Return a pad's or boot's law as it is stepped (7,): stiffness [N/m], decays [-], feeds [N/m].
+
+    Parameters
+    ----------
+    law : Relaxation or None
+        The law; None where there is no such spring.
+    time_step : float
+        Time step [s].
+    order : int
+        1 for the paper's recursion of the damping memory, 2 for the second-order one.
+
+    Returns
+    -------
+    numpy.ndarray (7,)
+        Zero for no spring; without memory decays and feeds are zero.
+    """
+    row = np.zeros(7)
+    if law is not None:
+        terms = len(law.times)
+        row[0], row[1 : 1 + terms], row[4 : 4 + terms] = law.recursion(time_step, order)
+    return row
 
 
 def track_row(design: TrackDesign, pad: Relaxation, boot: Relaxation | None) -> RealArray:

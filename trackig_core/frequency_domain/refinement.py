@@ -21,6 +21,7 @@ from trackig_core.frequency_domain.batch_kernels import (
     WIDEST_STEP,
 )
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
+from trackig_core.frequency_domain.kernel_rows import recursion_row
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.natural_frequencies import loaded_track
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
@@ -40,6 +41,9 @@ STIFF_CONTACT = 1e15
 
 POINTS_PER_FRINGE = 8
 """Frequencies per fringe of wheels that follow each other [-]."""
+
+_OVER_BANDS = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
+"""Frequencies from which a spectrum over all bands is refined [Hz], among them every band edge."""
 
 
 def resolved_spectrum(
@@ -64,10 +68,26 @@ def resolved_spectrum(
         Energy at the given and the added frequencies.
     """
     model = track_model(design)
-    if lattice == INFINITE and model.is_simplified:  # all of it compiled
-        axis, energy, coherent_energy = batch_kernels.resolve_row(model.row, frequency)
+    if model.is_simplified and _is_compiled(lattice):
+        axis, energy, coherent_energy = batch_kernels.resolve_row(
+            model.row, *_stepping(model, lattice), frequency
+        )
         return ForceSpectrum(axis, energy * step**2, coherent_energy * step**2, step)
     return refined_spectrum(lambda between: exact_spectrum(model, between, step, lattice), frequency)
+
+
+def _is_compiled(lattice: Lattice) -> bool:
+    """Return whether a lattice is refined by compiled code: all that are not for study only."""
+    ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
+    return lattice.elements_per_bay == batch_kernels.ELEMENTS_PER_BAY and not ring_in_continuous_time
+
+
+def _stepping(model: TrackModel, lattice: Lattice) -> tuple[RealArray, float, int]:
+    """Return recursions, time step and ring as compiled code takes them."""
+    if lattice.time_step is None:
+        return np.zeros((2, 7)), 0.0, 0
+    rows = [recursion_row(law, lattice.time_step, lattice.memory_order) for law in (model.pad, model.boot)]
+    return np.stack(rows), lattice.time_step, lattice.bays or 0
 
 
 def refined_spectrum(
@@ -169,9 +189,9 @@ def band_frequencies(lowest: float) -> RealArray:
         Frequencies [Hz], ascending, among them every band edge and the anchor if it lies below the bands.
     """
     anchor = LINE_FRACTION * lowest
-    between = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
-    below = [anchor, *np.geomspace(anchor, BAND_EDGES[0], 12)[1:-1]] if anchor < BAND_EDGES[0] else []
-    return np.concatenate([below, between])
+    if anchor >= BAND_EDGES[0]:
+        return _OVER_BANDS
+    return np.concatenate([np.geomspace(anchor, BAND_EDGES[0], 12)[:-1], _OVER_BANDS])
 
 
 def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DEFAULT_STEP) -> ForceSpectrum:

@@ -8,7 +8,7 @@ from collections.abc import Collection
 
 import numpy as np
 from scipy.integrate import simpson
-from scipy.interpolate import CubicSpline, make_interp_spline
+from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
@@ -22,10 +22,6 @@ under the same vehicle."""
 
 SUMMATIONS = ("energy", "coherent")
 """Sums over the supports: of squared forces (the paper), or of forces."""
-
-ANCHOR_POINTS = 8
-"""Points of the spectrum on either side of the reference line's anchor that are joined by a spline [-]; it
-forgets what lies further away by a factor of four per point."""
 
 PANELS = 64
 """Panels of Simpson's rule per band over the energy of a rigid track under a suspension [-]."""
@@ -75,21 +71,19 @@ def insertion_gain(
     check_reference(design, reference)
     energy = summed_energy(spectrum, summation)
     frequency = spectrum.frequency
+    density = CubicSpline(frequency, energy)
     if reference == "stiff":
         if stiff is None:
             raise ValueError("reference = 'stiff': give stiff, or use solve(), which computes it")
         in_bands = integrate_bands(stiff.frequency, summed_energy(stiff, summation))
         reference_energy = in_bands * (spectrum.step / stiff.step) ** 2
     elif reference == "line":
-        # E grows as that of a rigid track here: their ratio is nearly flat, so it may be interpolated
+        # E grows as that of a rigid track here, which a cubic spline follows between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        near = np.searchsorted(frequency, anchor)
-        around = slice(max(0, near - ANCHOR_POINTS), near + ANCHOR_POINTS)
-        curve = make_interp_spline(frequency[around], energy[around] / _rise(design, frequency[around]))
-        reference_energy = float(curve(anchor)) * _rise_in_bands(design)
+        reference_energy = float(density(anchor)) / _rise(design, anchor) * _rise_in_bands(design)
     else:
         reference_energy = rigid_band_energy(design, spectrum.step)
-    band_energy = integrate_bands(frequency, energy)
+    band_energy = _over_bands(density)
     return InsertionGain(
         levels=decibels(band_energy / reference_energy),
         band_energy=band_energy,
@@ -177,11 +171,15 @@ def integrate_bands(frequency: RealArray, density: RealArray) -> RealArray:
     numpy.ndarray (21,)
         Integral over each band [unit].
     """
-    spline = CubicSpline(frequency, density)
-    inner = (frequency > BAND_EDGES[0]) & (frequency < BAND_EDGES[-1])
-    nodes = np.union1d(frequency[inner], BAND_EDGES)
+    return _over_bands(CubicSpline(frequency, density))
+
+
+def _over_bands(spline: CubicSpline) -> RealArray:
+    inner = (spline.x > BAND_EDGES[0]) & (spline.x < BAND_EDGES[-1])
+    nodes = np.sort(np.concatenate([spline.x[inner], BAND_EDGES]))
     at_nodes, between = spline(nodes), spline((nodes[:-1] + nodes[1:]) / 2)
     # Simpson's rule is exact for cubics. Panels are summed band by band: the difference of one running sum
     # would lose bands that lie 160 dB below others.
     panels = np.diff(nodes) * (at_nodes[:-1] + 4 * between + at_nodes[1:]) / 6
-    return np.add.reduceat(panels, np.searchsorted(nodes, BAND_EDGES[:-1]))
+    energy: RealArray = np.add.reduceat(panels, np.searchsorted(nodes, BAND_EDGES[:-1]))
+    return energy

@@ -15,11 +15,13 @@ import numpy as np
 from scipy.fft import rfft
 
 from trackig_core.arrays import AnyArray, IntArray, RealArray
-from trackig_core.bands import BAND_EDGES
+from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
+from trackig_core.frequency_domain import batch_kernels
 from trackig_core.frequency_domain.floquet_waves import waves
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
-from trackig_core.frequency_domain.refinement import banded_gain
-from trackig_core.frequency_domain.track_model import Track, track_model
+from trackig_core.frequency_domain.natural_frequencies import loaded_track
+from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.time_domain.decimation import RECORD_RATE
 from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, fewest_bays, make_grid, stable_time_step
 
@@ -106,11 +108,11 @@ def plan(design: Track) -> Plan:
         If the run would need more than 2 GB or 60 s.
     """
     model = track_model(design)
-    exact = banded_gain(model).levels
+    exact = _bands_over_line(model, INFINITE)
 
     def error(bays: int | None, steps: int) -> float:
         lattice = Lattice(bays=bays, time_step=1 / (steps * RECORD_RATE), memory_order=MEMORY_ORDER)
-        return float(np.abs(banded_gain(model, lattice).levels - exact).max())
+        return float(np.abs(decibels(_bands_over_line(model, lattice) / exact)).max())
 
     dx = model.design.fastener_spacing / INFINITE.elements_per_bay
     stable = STABLE_SHARE * stable_time_step(model, dx)
@@ -153,6 +155,19 @@ def bays_until(design: Track, amplitude: float) -> float:
     """
     longest = np.abs(waves(design, _FREQUENCIES).multipliers).max()
     return math.log(amplitude) / math.log(longest)
+
+
+def _bands_over_line(model: TrackModel, lattice: Lattice) -> RealArray:
+    """Return the energy of every band over the height of the straight line (21,)."""
+    spectrum = banded_spectrum(model, lattice)
+    frequency, (slopes, factors) = spectrum.frequency, np.empty((2, spectrum.frequency.size))
+    bands, first = np.empty(len(BAND_EDGES) - 1), int(np.searchsorted(frequency, BAND_EDGES[0]))
+    batch_kernels.band_integrals(
+        frequency, spectrum.energy, frequency.size, first, BAND_EDGES, slopes, factors, bands
+    )
+    anchor = np.clip(LINE_FRACTION * loaded_track(model), frequency[0], frequency[-1])
+    # E grows as f^2 here: E / f^2 is nearly flat
+    return bands / np.interp(anchor, frequency, spectrum.energy / frequency**2)
 
 
 class Settled:

@@ -7,11 +7,14 @@ Source: the paper (see :mod:`trackig_core.track.design`): energy is summed over 
 Nothing is said above the low-pass filter's pass band.
 """
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.fft import next_fast_len, rfft
 
 from trackig_core.arrays import RealArray
 from trackig_core.results import ForceSpectrum, TimeHistory
+from trackig_core.time_domain.decimation import LowPass
 
 TOP_FREQUENCY = 600.0
 """Highest frequency of a spectrum [Hz]: above the upper edge of the 500 Hz band, 562 Hz."""
@@ -44,11 +47,11 @@ def force_spectrum(
     ForceSpectrum
         At multiples of one over the transform's length, up to 600 Hz.
     """
-    model = history if like is None else like
-    fringe = POINTS_PER_FRINGE * model.last_onset / (len(model.time) * _interval(model))
-    length = transform_length(model, max(padding, fringe))
-    frequency, interval = _axis(history, length)
-    correction = (interval / history.low_pass.gain(frequency)) ** 2
+    low_pass, model = history.low_pass, history if like is None else like
+    record = len(model.time) * low_pass.steps_per_sample * low_pass.time_step
+    length = transform_length(model, max(padding, POINTS_PER_FRINGE * model.last_onset / record))
+    frequency = _axis(low_pass, length)
+    correction = _correction(low_pass, length)
 
     # Plain sums: a product of matrices would be shared among threads, which wait for each other when other
     # solves keep the cores busy.
@@ -101,18 +104,22 @@ def block_to_rail(history: TimeHistory) -> tuple[RealArray, RealArray]:
     ratio : numpy.ndarray (frequencies,)
         Magnitude of block over rail displacement [-]; the low-pass filter's response cancels.
     """
-    frequency, _ = _axis(history, len(history.time))
+    frequency = _axis(history.low_pass, len(history.time))
     some = slice(1, len(frequency) + 1)
     return frequency, np.abs(rfft(history.block_displacement)[some] / rfft(history.rail_displacement)[some])
 
 
-def _interval(history: TimeHistory) -> float:
-    """Return the time between samples [s]."""
-    return float((history.time[-1] - history.time[0]) / (len(history.time) - 1))
+def _axis(low_pass: LowPass, length: int) -> RealArray:
+    """Return the frequencies of a transform up to 600 Hz, zero left out [Hz]."""
+    interval = low_pass.steps_per_sample * low_pass.time_step
+    return np.arange(1, int(TOP_FREQUENCY * length * interval) + 1) / (length * interval)
 
 
-def _axis(history: TimeHistory, length: int) -> tuple[RealArray, float]:
-    """Return the frequencies of a transform up to 600 Hz, zero left out, and its interval [s]."""
-    interval = _interval(history)
-    count = int(TOP_FREQUENCY * length * interval) + 1
-    return np.arange(1, count) / (length * interval), interval
+@lru_cache(maxsize=64)
+def _correction(low_pass: LowPass, length: int) -> RealArray:
+    """Return what makes a squared transform an energy (frequencies,) [s2], the filter's response divided out.
+
+    The same few filters and lengths come back with every run.
+    """
+    interval = low_pass.steps_per_sample * low_pass.time_step
+    return (interval / low_pass.gain(_axis(low_pass, length))) ** 2

@@ -13,6 +13,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from trackig_core.arrays import IntArray, RealArray
+from trackig_core.frequency_domain.kernel_rows import recursion_row
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.results import SolveCancelled, TimeHistory
 from trackig_core.time_domain import kernels, vehicle_kernels, vehicle_layout
@@ -197,10 +198,6 @@ class Constants(NamedTuple):
     comb_factor: int
 
 
-TERMS = 3
-"""Memory terms of a spring in the kernel [-]; those that a spring without loss has not are zero."""
-
-
 @dataclass(frozen=True)
 class Probes:
     """Where displacements are recorded beside the forces, besides that of the wheel.
@@ -275,8 +272,8 @@ def at_rest(
         np.array([layout.block_place(support) for support in probes.blocks], dtype=np.int64),
         grid.dt,
         grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
-        *_recursion(model.pad, grid.dt, memory_order),
-        *_recursion(model.boot, grid.dt, memory_order),
+        *_stiffness_decay_gain(model.pad, grid.dt, memory_order),
+        *_stiffness_decay_gain(model.boot, grid.dt, memory_order),
         element_mass=rail.mass_per_metre * grid.dx,
         block_mass=1.0 if track.block_mass is None else track.block_mass,
         wheel_mass=track.wheel_mass,
@@ -288,15 +285,11 @@ def at_rest(
     return state, constants
 
 
-def _recursion(
+def _stiffness_decay_gain(
     law: Relaxation | None, time_step: float, memory_order: int
 ) -> tuple[float, RealArray, RealArray]:
-    """Return stiffness, decays and gains of a spring, as many as the kernel has terms; zero for no spring."""
-    if law is None:
-        return 0.0, np.zeros(TERMS), np.zeros(TERMS)
-    stiffness, decay, gain = law.recursion(time_step, memory_order)
-    missing = (0, TERMS - decay.size)
-    return stiffness, np.pad(decay, missing), np.pad(gain, missing)
+    row = recursion_row(law, time_step, memory_order)
+    return float(row[0]), row[1:4], row[4:]
 
 
 class Run:
@@ -351,15 +344,10 @@ class Run:
         else:
             wheels = len(model.design.axle_positions)
             self._advance, self._layout = vehicle_kernels.advance, VehicleLayout(grid, wheels)
-            pad, boot = (
-                np.concatenate([[each[0]], *each[1:]])
-                for each in (_recursion(law, grid.dt, memory_order) for law in (model.pad, model.boot))
-            )
             self._state, self._constants = vehicle_layout.at_rest(
                 model,
                 grid,
-                pad,
-                boot,
+                memory_order=memory_order,
                 step=step,
                 probes=probes,
                 comb=comb,

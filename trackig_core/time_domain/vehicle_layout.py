@@ -12,6 +12,7 @@ import numpy as np
 
 from trackig_core.arrays import IntArray, RealArray
 from trackig_core.frequency_domain.axles import wheel_delays, wheel_elements
+from trackig_core.frequency_domain.kernel_rows import recursion_row
 from trackig_core.frequency_domain.track_model import TrackModel
 from trackig_core.time_domain.memory_layout import COLUMNS, aligned_zeros
 from trackig_core.time_domain.vehicle_kernels import LANES, QUANTITIES
@@ -117,9 +118,8 @@ class Constants(NamedTuple):
 def at_rest(
     model: TrackModel,
     grid: Grid,
-    pad: RealArray,
-    boot: RealArray,
     *,
+    memory_order: int,
     step: float,
     probes: Probes,
     comb: RealArray,
@@ -134,8 +134,8 @@ def at_rest(
         The track.
     grid : Grid
         Its grid.
-    pad, boot : numpy.ndarray (7,)
-        Laws of its pads and boots in discrete time: stiffness [N/m], decays [-] and gains [N/m].
+    memory_order : int
+        1 for the paper's recursion of the damping memory, 2 for the second-order one.
     step : float
         Height of the step of roughness [m].
     probes : Probes
@@ -165,6 +165,7 @@ def at_rest(
         pushed=aligned_zeros(layout.groups * LANES),
     )
     keep, spring, push = axle_matrices(track, grid.dt)
+    pad, boot = (recursion_row(law, grid.dt, memory_order) for law in (model.pad, model.boot))
     constants = Constants(
         layout.mirrors(),
         np.array([layout.rail_place(element) for element in wheels], dtype=np.int64),

@@ -11,7 +11,12 @@ from trackig_core.frequency_domain import batch_kernels as kernels
 from trackig_core.frequency_domain.batch import CHUNK, solve_many
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
 from trackig_core.frequency_domain.natural_frequencies import loaded_track, natural_frequencies
-from trackig_core.frequency_domain.refinement import band_frequencies, banded_spectrum, refined_spectrum
+from trackig_core.frequency_domain.refinement import (
+    band_frequencies,
+    banded_spectrum,
+    refined_spectrum,
+    resolved_spectrum,
+)
 from trackig_core.frequency_domain.track_model import track_model
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, integrate_bands
 from trackig_core.track.design import DEFAULT_STEP
@@ -156,6 +161,28 @@ def test_bands_are_integrated_like_those_of_one_spectrum():
     work = np.empty((2, count))
     kernels.band_integrals(spectrum.frequency, spectrum.energy, count, first, BAND_EDGES, *work, found)
     assert found == pytest.approx(integrate_bands(spectrum.frequency, spectrum.energy), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "design", [BLOCK, SLAB, random_designs(1, 0.0, seed=3)[0]], ids=["block", "slab", "any"]
+)
+@pytest.mark.parametrize(
+    "lattice",
+    [
+        tig.Lattice(time_step=1 / 20480, memory_order=2),
+        tig.Lattice(bays=61, time_step=1 / 20480, memory_order=2),
+        tig.Lattice(bays=20, time_step=1 / 20480, memory_order=2),
+        tig.Lattice(bays=667, time_step=1 / 131072),
+    ],
+    ids=str,
+)
+def test_the_schemes_own_spectrum_is_the_plain_ones(design, lattice):
+    start = band_frequencies(loaded_track(design))
+    compiled = resolved_spectrum(design, start, 1.0, lattice)
+    plain = refined_spectrum(lambda frequency: exact_spectrum(design, frequency, 1.0, lattice), start)
+    assert compiled.frequency == pytest.approx(plain.frequency, rel=1e-12)
+    assert compiled.energy == pytest.approx(plain.energy, rel=1e-8)
+    assert compiled.coherent_energy == pytest.approx(plain.coherent_energy, rel=1e-8)
 
 
 def test_fields_broadcast_as_numpy_does():

@@ -11,7 +11,7 @@ import trackig_core as tig
 from dashboard.compute import runner as runner_module
 from dashboard.compute.latest import readable
 from dashboard.compute.runner import STOPPED, Runner
-from dashboard.compute.workers import AT_REST, MOVING, solve_summary
+from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, solve_summary
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
 
@@ -45,6 +45,7 @@ class Session:
 def _short_rest(monkeypatch):
     monkeypatch.setattr(runner_module, "REST", 0.02)
     monkeypatch.setattr(runner_module, "LOOK_EVERY", 0.005)
+    monkeypatch.setattr(runner_module, "SOON", WAIT)
 
 
 class Gate:
@@ -248,6 +249,60 @@ def test_a_live_run_that_takes_too_long_is_left_for_the_paper_s(make_store, live
     session.change(pad_stiffness=500)
     assert shown == [(500, AT_REST)]
     assert live_gate.gave_up
+
+
+def test_while_a_live_run_takes_long_the_exact_curve_is_shown(make_store, live_gate, monkeypatch):
+    monkeypatch.setattr(runner_module, "SOON", 0.01)
+    session = Session(make_store(live_gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+
+    async def wait_for_force():
+        session.inputs.pad_stiffness = 500
+        await until(lambda: shown == [(500, AT_ONCE)])
+        assert live_gate.begun.is_set()
+        live_gate.open.set()
+        await until(lambda: (500, AT_REST) in shown)
+
+    asyncio.run(wait_for_force())
+    assert shown == [(500, AT_ONCE), (500, MOVING), (500, AT_REST)]
+
+
+def test_once_a_curve_is_there_a_long_live_run_gives_way_to_newer_inputs(make_store, live_gate, monkeypatch):
+    monkeypatch.setattr(runner_module, "SOON", 0.01)
+    monkeypatch.setattr(runner_module, "PATIENCE", WAIT)
+    session = Session(make_store(live_gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+
+    async def drag():
+        session.inputs.pad_stiffness = 500
+        await until(lambda: shown == [(500, AT_ONCE)])
+        session.inputs.pad_stiffness = 600
+        await until(lambda: (600, AT_REST) in shown)
+        await until(lambda: live_gate.gave_up)
+
+    asyncio.run(drag())
+    assert (500, MOVING) not in shown
+    assert shown[-2:] == [(600, MOVING), (600, AT_REST)]
+
+
+def test_where_the_last_live_run_took_long_the_next_curve_is_exact_at_once(make_store, live_gate):
+    session = Session(make_store(live_gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+    session.runner._live_is_slow = True
+
+    async def drag():
+        session.inputs.pad_stiffness = 500
+        await until(lambda: shown == [(500, AT_ONCE)])  # SOON has not passed
+        live_gate.open.set()
+        await until(lambda: (500, AT_REST) in shown)
+        session.inputs.pad_stiffness = 501
+        await until(lambda: (501, AT_REST) in shown)
+
+    asyncio.run(drag())
+    assert shown == [(500, AT_ONCE), (500, MOVING), (500, AT_REST), (501, MOVING), (501, AT_REST)]
 
 
 def test_what_live_fidelity_refuses_is_left_for_the_paper_s(make_store, fake_picture):

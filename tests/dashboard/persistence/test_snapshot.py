@@ -43,6 +43,21 @@ def test_a_link_reopens_design_pins_view_and_tab(filled, summary):
     assert other.snapshot.query() == filled.snapshot.query()
 
 
+def test_a_study_is_undone_in_one_step_and_a_link_is_where_undo_begins(filled, summary):
+    other = type(filled)(summary)
+    other.snapshot.follow(arguments(filled.snapshot.query()))
+    assert not other.snapshot.steps.can_undo
+    before = state(other), other.assessment.title
+    other.inputs.wheel_mass = 700.0
+    mine = filled.snapshot.study().to_toml()
+    other.snapshot.open(mine)
+    other.snapshot.steps.undo()
+    assert other.inputs.wheel_mass == 700.0
+    assert other.assessment.specification is None
+    other.snapshot.steps.undo()
+    assert (state(other), other.assessment.title) == before
+
+
 def test_the_paper_s_figure_2_reopens_alone(session, summary):
     session.pins.show_table_1()
     other = type(session)(summary)

@@ -11,6 +11,7 @@ from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
+from dashboard.session.steps import Steps
 from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
@@ -195,14 +196,17 @@ def test_where_there_is_no_room_for_table_1_nothing_changes(session):
 class Bar:
     """The bar above the sliders, and a clock that a test sets."""
 
-    def __init__(self):
+    def __init__(self, make_pictures):
         self.inputs, self.pins, self.browser, self.now = DesignInputs(), Pins(), Browser(), 0.0
-        self.bar = DesignBar(self.inputs, self.pins, self.browser, clock=lambda: self.now)
+        definition = GainDefinition()
+        assessment = Assessment(self.inputs, Outcome(), definition, self.pins, make_pictures())
+        steps = Steps(self.inputs, definition, self.pins, assessment, clock=lambda: self.now)
+        self.bar = DesignBar(self.inputs, self.pins, steps, self.browser)
 
 
 @pytest.fixture
-def bar():
-    return Bar()
+def bar(make_pictures):
+    return Bar(make_pictures)
 
 
 def test_a_drag_is_undone_in_one_step_and_redone(bar):

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
+from dashboard import theme
 from dashboard.fields import PRESET_LABELS
 from dashboard.formats import duration_text
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
-from dashboard.session.results import Outcome
+from dashboard.session.results import Outcome, SolutionSummary
 from dashboard.views.explore import Explore
 from dashboard.views.frequencies import Frequencies, frequencies_html
 from dashboard.views.status import Status, status_html, status_words
@@ -55,6 +56,25 @@ def test_the_status_and_a_chip_say_which_fidelity_is_on_screen(explore, outcome,
     outcome.summary = summary("slab-track")
     assert status_words(outcome).startswith("Paper's run, solved in")
     assert view.fidelity.label == "paper's run"
+
+
+def test_an_exact_curve_leaves_the_last_force_dimmed_until_a_run_is_there(
+    explore, outcome, fake_picture, summary
+):
+    view, stepped = explore(outcome, GainDefinition()), summary("slab-track")
+    outcome.summary = stepped
+    force = view.force.samples.data
+    exact = SolutionSummary.of(tig.solve(summary("booted-sleeper").design, "exact"), 0.002)
+    outcome.summary = exact
+    assert view.fidelity.label == "exact curve"
+    assert status_words(outcome).startswith("Exact curve, solved in 2 ms")
+    assert view.insertion_gain.bands.data["level"] == pytest.approx(exact.solution.insertion_gain)
+    assert view.force.samples.data is force
+    gain_pane, force_pane = view.panes
+    assert (gain_pane.styles, force_pane.styles) == (theme.FRESH, theme.STALE)
+    outcome.summary = fake_picture(exact.design, fidelity="live")
+    assert view.force.samples.data is not force
+    assert force_pane.styles == theme.FRESH
 
 
 def test_notes_of_the_solution_are_told(outcome, fake_picture, summary):

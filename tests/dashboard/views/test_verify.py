@@ -11,7 +11,7 @@ import trackig_core as tig
 from dashboard.compute import checker as checker_module
 from dashboard.compute.checker import VerificationRunner, check
 from dashboard.session.inputs import GainDefinition
-from dashboard.session.results import Outcome, VerifiedSummary
+from dashboard.session.results import Outcome, SolutionSummary, VerifiedSummary
 from dashboard.views.verify import Verify, largest
 
 
@@ -39,6 +39,9 @@ def test_nothing_is_checked_that_nobody_looks_at(outcome, summary, monkeypatch):
         checker.look(True)
         await asyncio.sleep(0.2)
         assert asked == [summary("slab-track")]
+        outcome.summary = SolutionSummary.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.002)
+        await asyncio.sleep(0.2)
+        assert asked == [summary("slab-track")], "an exact curve has no run to be checked"
         outcome.summary = summary("booted-sleeper")
         await asyncio.sleep(0.2)
         assert outcome.verified.summary is summary("booted-sleeper")
