@@ -178,7 +178,9 @@ def receptance(
 
 
 def contact_force(design: Track, frequency: ArrayLike, lattice: Lattice = INFINITE) -> ComplexArray:
-    """Return the contact force per unit roughness between wheel and rail.
+    """Return the contact force per unit roughness between rail and one wheel over support 0.
+
+    A design's other axles are left out; see :func:`trackig_core.frequency_domain.axles.contact_forces`.
 
     Parameters
     ----------
@@ -206,7 +208,9 @@ def _contact_force(model: TrackModel, rail: Waves, lattice: Lattice) -> ComplexA
 def support_force(
     design: Track, frequency: ArrayLike, support: ArrayLike = 0, lattice: Lattice = INFINITE
 ) -> ComplexArray:
-    """Return the force that a support passes into the ground per unit roughness.
+    """Return the force that a support passes into the ground per unit roughness under one wheel.
+
+    The wheel stands over support 0; a design's other axles are left out.
 
     Parameters
     ----------

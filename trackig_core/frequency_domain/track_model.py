@@ -51,6 +51,11 @@ class Supports:
             return None
         return self.pad + self.below(self.boot)[0] - self.inertia
 
+    @property
+    def foot_to_rail(self) -> ComplexArray | None:
+        """Displacement of the foot per displacement of the rail (frequencies,) [-]; None on rigid ground."""
+        return None if self.into_ground is None else self.transfer / self.into_ground
+
     def below(self, spring: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
         """Return what the lowest spring does per displacement of its upper end.
 
