@@ -80,7 +80,7 @@ def insertion_gain(
     elif reference == "line":
         # E grows as that of a rigid track here, which a cubic spline follows between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        reference_energy = float(density(anchor)) / _rise(design, anchor) * _rise_in_bands(design)
+        reference_energy = _rise_in_bands(design, float(density(anchor)) / _rise(design, anchor))
     else:
         reference_energy = rigid_band_energy(design, spectrum.step)
     band_energy = _over_bands(density)
@@ -125,7 +125,7 @@ def rigid_band_energy(design: TrackDesign, step: float) -> RealArray:
     """
     # E = (m_w w^2 step)^2 / w^2 under a wheel without suspension
     height = 2 * np.pi * design.wheel_mass * step if design.one_unsprung_wheel else step
-    return height**2 * _rise_in_bands(design)
+    return _rise_in_bands(design, height**2)
 
 
 def _rise(design: TrackDesign, frequency: RealArray) -> RealArray:
@@ -133,13 +133,13 @@ def _rise(design: TrackDesign, frequency: RealArray) -> RealArray:
     return frequency**2 if design.one_unsprung_wheel else rigid_energy(design, frequency)
 
 
-def _rise_in_bands(design: TrackDesign) -> RealArray:
-    """Return :func:`_rise` integrated over the bands (21,)."""
+def _rise_in_bands(design: TrackDesign, height: float) -> RealArray:
+    """Return ``height`` times :func:`_rise` integrated over the bands (21,)."""
     if design.one_unsprung_wheel:
-        cubes: RealArray = np.diff(BAND_EDGES**3) / 3
+        cubes: RealArray = height * np.diff(BAND_EDGES**3) / 3
         return cubes
     nodes = np.linspace(BAND_EDGES[:-1], BAND_EDGES[1:], 2 * PANELS + 1)
-    return np.asarray(simpson(_rise(design, nodes), nodes, axis=0))
+    return height * np.asarray(simpson(_rise(design, nodes), nodes, axis=0))
 
 
 def summed_energy(spectrum: ForceSpectrum, summation: str) -> RealArray:
