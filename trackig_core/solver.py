@@ -215,7 +215,8 @@ def _axle_notes(design: TrackDesign) -> tuple[str, ...]:
     """Return where the axles stand, if not where they were asked to."""
     dx = design.fastener_spacing / ELEMENTS_PER_BAY
     stand = [element * dx for element in axle_elements(design.axle_positions, design.fastener_spacing)]
-    if np.allclose(stand, design.axle_positions, rtol=0.0, atol=1e-3 * dx):
+    moved = (abs(here - there) for here, there in zip(stand, design.axle_positions, strict=True))
+    if max(moved) < 1e-3 * dx:
         return ()
     places = ", ".join(f"{each:.3g}" for each in stand)
     return (f"axles stand on the nearest rail elements, {dx:.3g} m apart: at {places} m",)

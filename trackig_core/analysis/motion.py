@@ -2,7 +2,8 @@
 
 A run as at live fidelity (see :mod:`trackig_core.time_domain.adaptive_grid`), short, that records every
 rail element and every block near the wheel. Frames are samples of the low-passed displacements, SI units,
-positive towards the ground; the track to the left of the wheel is the mirror image of that to the right.
+positive towards the ground; the track to the left of one wheel is the mirror image of that to the right. The
+step reaches several wheels each with its delay, or all at once where their roughness is independent.
 The wheel begins one step below a rail at rest, squeezing the contact spring (see
 :mod:`trackig_core.track.design`); the filter rounds that jump off over the millisecond around time zero.
 Nothing is interpolated, in time or along the rail.

@@ -64,6 +64,8 @@ def check_axles(positions: object, spacing: float) -> tuple[float, ...]:
     DesignError
         If they are no numbers, too many, out of range, or closer than rail elements.
     """
+    if positions is ONE_AXLE:
+        return ONE_AXLE
     allowed = f"1 to {MOST_AXLES} positions in m, such as (0.0, 2.4)"
     if isinstance(positions, str | numbers.Number) or not isinstance(positions, Iterable):
         raise DesignError("axle_positions", positions, allowed)
