@@ -80,7 +80,8 @@ def insertion_gain(
     elif reference == "line":
         # E grows as that of a rigid track here, which a cubic spline follows between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        reference_energy = _rise_in_bands(design, float(density(anchor)) / _rise(design, anchor))
+        height = float(density(anchor)) / _rise(design, anchor)
+        reference_energy = _rise_in_bands(design, float(height))
     else:
         reference_energy = rigid_band_energy(design, spectrum.step)
     band_energy = _over_bands(density)
