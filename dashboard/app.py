@@ -24,6 +24,7 @@ from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.compare import Compare
+from dashboard.views.decide import Decide
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
 from dashboard.views.learn import Learn
@@ -94,6 +95,7 @@ def build(store=None, live_store=None):
         Explore: partial(Explore, outcome, definition, pins, assessment),
         Compare: partial(Compare, inputs, pins, assessment, show_insertion_gain),
         SpecificationView: partial(SpecificationView, assessment, exchange),
+        Decide: partial(Decide, inputs, definition, pins, assessment),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
         Track: partial(Track, inputs, outcome),
         Learn: partial(Learn, inputs, outcome, definition),
@@ -106,7 +108,18 @@ def build(store=None, live_store=None):
     return page(sidebar, status, tabs(snapshot, makers, exchange), browser, exchange)
 
 
-TABS = (Explore, Compare, SpecificationView, ReceivedLevel, Track, Learn, Verify, Method, SaveAndShare)
+TABS = (
+    Explore,
+    Compare,
+    SpecificationView,
+    Decide,
+    ReceivedLevel,
+    Track,
+    Learn,
+    Verify,
+    Method,
+    SaveAndShare,
+)
 """The tabs, in their order."""
 
 

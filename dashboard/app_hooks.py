@@ -1,4 +1,4 @@
-"""What the server does before the first session and after the last.
+"""What the server does before the first session, after each and after the last.
 
 No session compiles anything; at a first start the page is there meanwhile, and says so.
 """
@@ -6,22 +6,33 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 import gc
 
 import trackig_core as tig
+from dashboard.app import TITLE
 from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
+from dashboard.server import first_page, sessions
 from dashboard.server_log import leave_out_departures
 
+# the server is made after its hooks are read
+first_page.install()
 
-def on_server_loaded(server_context):  # noqa: ARG001  (the server calls it so)
+
+def on_server_loaded(server_context):
     """Have kernels compiled and the presets solved while pages are served, the opening one first."""
     leave_out_departures()
     compiled()
-    # here and not on a thread: an import that sessions run into half-way fails for them
-    overlays.load()
-    # what is imported stays: looking through it for garbage would stop every session for 0.1 s now and then
-    gc.freeze()
     for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
         shared_store().request((tig.PRESETS[key], AT_REST))
+    # here and not on a thread: an import that sessions run into half-way fails for them
+    overlays.load()
+    first_page.prepare(server_context.application_context, TITLE)
+    # what stays so far: looking through it for garbage would stop every session for 0.1 s now and then
+    gc.freeze()
+
+
+def on_session_destroyed(session_context):
+    """Let go of what a session leaves behind."""
+    sessions.forget(session_context._document)
 
 
 def on_server_unloaded(server_context):  # noqa: ARG001

@@ -1,7 +1,8 @@
 """The command line: solve a track, check and report a study, serve the dashboard.
 
-SI units go in (N/m, kg, m), as everywhere in the core; Hz and dB come out. Exit codes: 0 when all went
-well, 1 when a specification is not met, 2 when the input is at fault, which is told in one line.
+SI units go in (N/m, kg, m), as everywhere in the core, or numbers with their unit (20kN/mm); Hz and dB come
+out. Exit codes: 0 when all went well, 1 when a specification is not met, 2 when the input is at fault, which
+is told in one line, 70 when the program is (see :mod:`dashboard.__main__`).
 
 Nothing here computes; what is printed comes from the core, as anybody's script would have it.
 """
@@ -19,7 +20,8 @@ import time
 from pathlib import Path
 
 import trackig_core as tig
-from dashboard import formats
+from dashboard import cli_decide, formats
+from dashboard.server.command import ServeError, add_arguments, serve
 from dashboard.session.pins import base_design, shown_designs
 from dashboard.session.results import SolutionSummary
 from trackig_core.levels import band_tables
@@ -27,18 +29,27 @@ from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
 from trackig_core.solver import FIDELITIES
 from trackig_core.study import studies
 from trackig_core.track.design import RANGES
+from trackig_core.typed_numbers import NumberError, read_number
 
-FAILED, AT_FAULT, STOPPED = 1, 2, 130
-"""Exit codes: the specification is not met; the input is at fault; the user pressed Ctrl+C."""
+FAILED, AT_FAULT, STOPPED, CUT_OFF = 1, 2, 130, 141
+"""Exit codes: the specification is not met; the input is at fault; the user pressed Ctrl+C; who reads the
+verdicts went away before all were told."""
 
-PORT = 5006
-"""Where the dashboard is served unless another port is given [-]."""
+STANDARD_OUTPUT = Path("-")
+"""What stands for standard output where a file is written."""
+
+PAGES = (".html", ".htm")
+"""How the names of reports end."""
+
+LIMITS = ("insertion-gain", "insertion-loss")
+"""What the limits of a specification may be."""
 
 USER_ERRORS = (
     tig.BandTableError,
     tig.DesignError,
     tig.RunTooLargeError,
     tig.StudyError,
+    cli_decide.DecideError,
     FloatingPointError,
     OSError,
 )
@@ -75,7 +86,7 @@ def main(arguments=None):
     except BrokenPipeError:
         # whoever reads the output has read enough; what is left must not fail at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+        return options.cut_off
     except KeyboardInterrupt:
         return STOPPED
     except (CommandError, *USER_ERRORS) as error:
@@ -94,13 +105,15 @@ def _parser():
     parser = argparse.ArgumentParser(
         prog="trackig",
         description="Insertion gain of railway track supports.",
-        epilog="Exit codes: 0 all went well; 1 the specification is not met; 2 the input is at fault.",
+        epilog="Exit codes: 0 all went well; 1 the specification is not met; 2 the input is at fault; "
+        "70 trackig itself is.",
     )
     parser.add_argument("--version", action="version", version=f"trackig {tig.__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     _add_solve(commands)
     _add_check(commands)
     _add_report(commands)
+    cli_decide.add_commands(commands, cli_decide.Shell(_add, _open_study, _refuse_to_lose, _write))
     _add_serve(commands)
     return parser
 
@@ -109,7 +122,7 @@ def _add(commands, name, run, **words):
     command = commands.add_parser(
         name, formatter_class=argparse.RawDescriptionHelpFormatter, description=words["help"], **words
     )
-    command.set_defaults(run=run)
+    command.set_defaults(run=run, cut_off=0)
     return command
 
 
@@ -132,13 +145,20 @@ def _add_solve(commands):
         default=[],
         metavar="FIELD=VALUE",
         dest="changes",
-        help="change a field, in SI units, such as boot_stiffness=20e6; may be given again",
+        help="change a field, in SI units or with a unit, such as boot_stiffness=20kN/mm; may be given again",
     )
     _add_fidelity(command)
     command.add_argument("--reference", choices=REFERENCES, help="the study's, else line")
     command.add_argument("--summation", choices=SUMMATIONS, help="the study's, else energy")
-    command.add_argument("--csv", type=Path, metavar="FILE", help="write the bands [Hz, dB] as CSV")
-    command.add_argument("--json", type=Path, metavar="FILE", help="write design and results as JSON, in SI")
+    command.add_argument(
+        "--csv", type=Path, metavar="FILE", help="write the bands [Hz, dB] as CSV, - for standard output"
+    )
+    command.add_argument(
+        "--json",
+        type=Path,
+        metavar="FILE",
+        help="write design and results as JSON, in SI, - for standard output",
+    )
     _add_force(command)
 
 
@@ -155,8 +175,14 @@ def _add_check(commands):
         "--specification",
         type=Path,
         metavar="FILE.csv",
-        help="check against this instead: frequency_hz [Hz], ig_max_db [dB]",
+        help="check against this table of bands [Hz] and greatest insertion gain [dB] instead",
     )
+    command.add_argument(
+        "--limits",
+        choices=LIMITS,
+        help="what the limits are; the sign of insertion losses is turned",
+    )
+    command.set_defaults(cut_off=CUT_OFF)
     _add_fidelity(command)
 
 
@@ -169,15 +195,16 @@ def _add_report(commands):
         epilog="Reported are the current design and the pinned designs that are shown.",
     )
     command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
-    command.add_argument("output", type=Path, metavar="OUT.html", help="where the report is written")
+    command.add_argument(
+        "output", type=Path, metavar="OUT.html", help="where the report is written, - for standard output"
+    )
     _add_fidelity(command)
     _add_force(command)
 
 
 def _add_serve(commands):
     command = _add(commands, "serve", _serve, help="Serve the dashboard until stopped by Ctrl+C.")
-    command.add_argument("--port", type=_port, default=PORT, help=f"1 to 65535, {PORT} unless given")
-    command.add_argument("--show", action="store_true", help="open the dashboard in a browser")
+    add_arguments(command, _count, _port)
 
 
 def _add_fidelity(command):
@@ -192,7 +219,7 @@ def _add_force(command):
 
 def _fields_help():
     """Return the fields of a design with their ranges and units."""
-    lines = ["fields for --set, SI units:"]
+    lines = ["fields for --set, in SI units unless a unit is given:"]
     for name in DESIGN_FIELDS:
         if name in RANGES:
             low, high, unit = RANGES[name]
@@ -200,6 +227,13 @@ def _fields_help():
     lines.append(f"  {'rail':18} {', '.join(tig.RAILS)}")
     lines.append("'none' for block_mass, boot_stiffness and boot_loss_factor makes a single-stage track")
     return "\n".join(lines)
+
+
+def _count(text):
+    number = int(text) if text.isascii() and text.isdecimal() and len(text) <= 4 else 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text}: give a whole number of one or more")
+    return number
 
 
 def _port(text):
@@ -211,6 +245,8 @@ def _port(text):
 
 def _solve(options):
     outputs = [path for path in (options.csv, options.json) if path is not None]
+    if outputs.count(STANDARD_OUTPUT) > 1:
+        raise CommandError("--csv - --json -: standard output takes one of them")
     for path in outputs:
         _refuse_to_lose(path, options.force, options.track)
     design, view = _track(options.track)
@@ -220,7 +256,8 @@ def _solve(options):
         reference=options.reference or view.reference,
         summation=options.summation or view.summation,
     )
-    sys.stdout.write(_solution_text(solution))
+    if STANDARD_OUTPUT not in outputs:
+        sys.stdout.write(_solution_text(solution))
     if options.csv is not None:
         _write(options.csv, _solution_csv(solution))
     if options.json is not None:
@@ -243,23 +280,31 @@ def _track(name):
 
 def _change(text):
     """Return the field and the value that ``FIELD=VALUE`` stands for."""
-    field, equals, value = text.partition("=")
+    field, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
-        raise CommandError(f"--set {text}: write FIELD=VALUE, such as boot_stiffness=20e6")
+        raise CommandError(f"--set {text}: write FIELD=VALUE, such as boot_stiffness=20kN/mm")
     if field == "rail":
         if value not in tig.RAILS:
             raise CommandError(f"--set {text}: rails are {', '.join(tig.RAILS)}")
         return field, tig.RAILS[value]
     if value == "none":
         return field, None
-    try:
-        return field, float(value)
-    except ValueError:
+    if field not in RANGES:
+        # the design says which fields there are
         return field, value
+    low, high, unit = RANGES[field]
+    try:
+        return field, read_number(value, unit)
+    except NumberError as error:
+        allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
+        raise CommandError(f"--set {text}: {error}; {field} is {allowed}") from None
 
 
 def _read(path, most):
     """Return what a file holds; of one that is too large, enough to tell."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        # reading a pipe would wait for whoever writes to it
+        raise CommandError(f"{path}: this is not a regular file; save what it holds, and name that file")
     with path.open("rb") as file:
         return file.read(most + 1)
 
@@ -271,20 +316,35 @@ def _open_study(path):
         raise CommandError(f"{path}: {error}") from None
 
 
-def _open_specification(path):
+def _open_specification(path, limits):
     try:
-        return tig.Specification.from_csv(_read(path, band_tables.MOST_BYTES))
+        reading = tig.Specification.read(_read(path, band_tables.MOST_BYTES))
     except tig.SpecificationError as error:
         raise CommandError(f"{path}: {error}") from None
+    for note in reading.notes:
+        sys.stderr.write(f"trackig: {path}: {note}\n")
+    if reading.says_loss and limits is None:
+        raise CommandError(
+            f"{path}: the limits are called insertion losses; give --limits insertion-loss to turn their "
+            "sign, or --limits insertion-gain to take them as they are"
+        )
+    return reading.table
 
 
 def _check(options):
     opened = _open_study(options.study)
     if options.specification is not None:
-        opened = dataclasses.replace(opened, specification=_open_specification(options.specification))
+        specification = _open_specification(options.specification, options.limits)
+        opened = dataclasses.replace(opened, specification=specification)
     if opened.specification is None:
         raise CommandError(
             f"{options.study}: the study has no specification; add one, or give --specification FILE.csv"
+        )
+    if options.limits == "insertion-loss":
+        opened = dataclasses.replace(opened, specification=opened.specification.turned())
+    elif options.limits is None and opened.specification.is_probably_loss:
+        sys.stderr.write(
+            "trackig: no limit is below 0 dB; if they are insertion losses, give --limits insertion-loss\n"
         )
     complies = True
     for pinned in shown_designs(opened):
@@ -292,7 +352,8 @@ def _check(options):
         solution = tig.solve(
             pinned.design, options.fidelity, reference=view.reference, summation=view.summation
         )
-        verdict = opened.specification.check(solution.insertion_gain)
+        deflection = tig.analysis.limited_deflection(opened.specification, pinned.design)
+        verdict = opened.specification.check(solution.insertion_gain, deflection)
         sys.stdout.write(f"{pinned.name}: {verdict}\n")
         complies &= verdict.complies
     return 0 if complies else FAILED
@@ -302,6 +363,11 @@ def _report(options):
     # plots are slow to load, and no other command draws any
     from dashboard.report.html_report import html_report
 
+    if options.output != STANDARD_OUTPUT and options.output.suffix.lower() not in PAGES:
+        page = options.output.with_suffix(".html")
+        raise CommandError(
+            f"{options.output}: a report is an HTML file; write {page}, and print it to PDF from a browser"
+        )
     opened = _open_study(options.study)
     _refuse_to_lose(options.output, options.force, options.study)
     summaries = {
@@ -310,7 +376,8 @@ def _report(options):
     }
     report = html_report(opened, summaries, date=datetime.date.today(), version=tig.__version__)
     _write(options.output, report)
-    sys.stdout.write(f"{options.output}\n")
+    if options.output != STANDARD_OUTPUT:
+        sys.stdout.write(f"{options.output}\n")
     return 0
 
 
@@ -320,21 +387,17 @@ def _summary(design, fidelity):
 
 
 def _serve(options):
-    # the server is slow to load, and no other command needs it
-    from panel.command import main as panel
-
-    address = f"http://localhost:{options.port}/{Path(__file__).parent.name}"
-    sys.stdout.write(f"trackig: serving at {address}; press Ctrl+C to stop\n")
-    sys.stdout.flush()
-    # Panel reads the words of its command from the process
-    sys.argv = ["panel", "serve", str(Path(__file__).parent), "--port", str(options.port)]
-    sys.argv += ["--show"] if options.show else []
-    panel()
+    try:
+        serve(options)
+    except ServeError as error:
+        raise CommandError(str(error)) from None
     return 0
 
 
 def _refuse_to_lose(path, force, read):
     """Refuse to write over the file that is read, and, unless forced, over any that exists."""
+    if path == STANDARD_OUTPUT:
+        return
     if path.exists() and Path(read).exists() and path.samefile(read):
         raise CommandError(f"{path}: this is the file that is read; write to another")
     if path.exists() and not force:
@@ -342,7 +405,10 @@ def _refuse_to_lose(path, force, read):
 
 
 def _write(path, text):
-    path.write_text(text, encoding="utf-8", newline="")
+    if path == STANDARD_OUTPUT:
+        sys.stdout.write(text)
+    else:
+        path.write_text(text, encoding="utf-8", newline="")
 
 
 def _solution_text(solution):
@@ -386,7 +452,3 @@ def _solution_json(solution):
         "notes": list(solution.notes),
     }
     return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -4,15 +4,21 @@ import logging
 
 import panel as pn
 
+title = "trackig"
 try:
-    from dashboard.app import build
+    from dashboard.app import TITLE, build
+    from dashboard.server import sessions
 
-    page = build()
+    if sessions.admit(pn.state.curdoc):
+        page, title = build(), TITLE
+    else:
+        page, title = sessions.full_page(), f"{TITLE} is full"
 except Exception:
     logging.getLogger(__name__).exception("The dashboard could not start")
     page = pn.pane.Markdown(
         "# The dashboard could not start\n\nThe server's log says why. Reload to try again."
     )
+    title = "trackig could not start"
 
 # the location would be read back from the address bar, which anybody may have typed
-page.servable(title="trackig", location=False)
+page.servable(title=title, location=False)

@@ -144,6 +144,13 @@ FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
 """How pictures look that are those of the inputs, or of earlier ones."""
 
 SUBTITLE = {"color": "white", "opacity": 0.85}
+ANSWER_CSS = """
+    p { margin: 2px 0; font-size: 1.05rem; color: var(--panel-on-surface-color, inherit); }
+    p.problem { color: #c2410c; font-weight: 600; }
+    p.note { opacity: 0.75; }
+"""
+"""Answers that are read aloud."""
+
 STATUS_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
 div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
@@ -295,6 +302,7 @@ li svg {{ align-self: center; }}
 MESSAGE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); }}
 div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS}; }}
+div[role=status] {{ font-weight: 400; color: var(--panel-on-background-color); }}
 """
 
 PROSE_WIDTH = 900

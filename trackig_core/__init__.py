@@ -7,16 +7,18 @@
 (21,)
 
 ``solution.plot()`` draws the insertion gain, ``solution.to_dataframe()`` gives it as a table. Analyses of a
-design stand in ``tig.analysis``, studies in ``tig.study``, levels and verdicts in ``tig.levels``.
+design stand in ``tig.analysis``, choices between many designs in ``tig.decide``, studies in ``tig.study``,
+levels and verdicts in ``tig.levels``.
 
 The model of Thornely-Taylor, Bewes and Sica (2021), "A simplified model for calculating the insertion
 gain of track support systems using the finite difference method". SI units throughout.
 """
 
+from importlib import import_module
 from importlib.metadata import version
 
 from trackig_core import analysis, levels, results, study
-from trackig_core.analysis import receptance, verify
+from trackig_core.analysis import receptance, static_response, verify
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS
 from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.levels import SourceSpectrum, Specification, insertion_gain
@@ -69,6 +71,7 @@ __all__ = [
     "receptance",
     "solve",
     "solve_many",
+    "static_response",
     "study",
     "verify",
 ]
@@ -78,6 +81,8 @@ _PARTS = (analysis, levels, results, study)
 
 def __getattr__(name: str) -> object:
     """Return a name of one of the parts, such as ``tig.film`` for ``tig.analysis.film``."""
+    if name == "decide":  # what it imports takes a while, and to solve a design needs none of it
+        return import_module("trackig_core.decide")
     for part in _PARTS:
         if name in part.__all__:
             return getattr(part, name)

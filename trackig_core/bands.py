@@ -7,6 +7,9 @@ Every band quantity in the package uses the arrays below, so that a band
 means the same everywhere.
 """
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -49,3 +52,90 @@ def decibels(ratio: ArrayLike) -> RealArray:
         10 log10(ratio) [dB], of the same shape.
     """
     return 10 * np.log10(ratio)
+
+
+_NOMINAL = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
+"""Nominal mid-band frequencies of one decade (10,) [Hz]; IEC 61260-1, annex E."""
+
+
+@dataclass(frozen=True)
+class Bands:
+    """A row of neighbouring bands, base ten (IEC 61260-1).
+
+    Attributes
+    ----------
+    first, last : int
+        Numbers n of the first and the last band, whose exact mid-band frequencies are 10**(n/10) Hz.
+    tenths : int
+        Width of a band in tenths of a decade: 1 for one-third octaves, 3 for octaves.
+    """
+
+    first: int
+    last: int
+    tenths: int = 1
+
+    @property
+    def words(self) -> str:
+        """What a band is, in words."""
+        return "One-third-octave" if self.tenths == 1 else "Octave"
+
+    @property
+    def numbers(self) -> range:
+        """Numbers n of the bands."""
+        return range(self.first, self.last + 1, self.tenths)
+
+    @cached_property
+    def centres(self) -> RealArray:
+        """Exact mid-band frequencies (bands,) [Hz]."""
+        return 10.0 ** (np.array(self.numbers) / 10)
+
+    @cached_property
+    def edges(self) -> RealArray:
+        """Edges between neighbouring bands (bands + 1,) [Hz]."""
+        numbers = np.append(self.numbers, self.numbers[-1] + self.tenths)
+        return 10.0 ** ((numbers - self.tenths / 2) / 10)
+
+    @cached_property
+    def labels(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text (bands,) [Hz]."""
+        return tuple(f"{_NOMINAL[n % 10] * 10.0 ** (n // 10):g}" for n in self.numbers)
+
+
+ONE_THIRD_OCTAVES = Bands(7, 27)
+"""The paper's bands: one-third octaves from 5 Hz to 500 Hz."""
+
+BANDS = {
+    "one-third-octave": ONE_THIRD_OCTAVES,
+    "octave": Bands(9, 24, 3),
+    "wide one-third-octave": Bands(0, 30),
+    "wide octave": Bands(0, 30, 3),
+}
+"""Bands that may be chosen: those of the paper, octaves within them (8 Hz to 250 Hz), and both kinds from
+1 Hz to 1 kHz, where the model says less: below 5 Hz a real wheel follows its suspension, and above 500 Hz the
+rail shears and three elements a bay are few."""
+
+WIDEST = Bands(-1, 31)
+"""One-third octaves whose edges are those of all bands that may be chosen."""
+
+
+def chosen_bands(name: str) -> Bands:
+    """Return the bands of a name.
+
+    Parameters
+    ----------
+    name : str
+        A key of :data:`BANDS`.
+
+    Returns
+    -------
+    Bands
+        The bands.
+
+    Raises
+    ------
+    ValueError
+        If there are none of that name.
+    """
+    if name not in BANDS:
+        raise ValueError(f"bands = {name!r}: give {' or '.join(map(repr, BANDS))}")
+    return BANDS[name]

@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from trackig_core.bands import ONE_THIRD_OCTAVES, Bands
+
 if TYPE_CHECKING:
     from trackig_core.arrays import RealArray
     from trackig_core.time_domain.decimation import LowPass
@@ -88,19 +90,21 @@ class ForceSpectrum:
 
 @dataclass(frozen=True, eq=False)
 class InsertionGain:
-    """Insertion gain per one-third-octave band, and the two energies it compares.
+    """Insertion gain per band, and the two energies it compares.
 
     Attributes
     ----------
-    levels : numpy.ndarray (21,) [dB]
+    levels : numpy.ndarray (bands,) [dB]
         Insertion gain; positive where the track amplifies, negative where it isolates.
-    band_energy, reference_energy : numpy.ndarray (21,) [N2 s]
+    band_energy, reference_energy : numpy.ndarray (bands,) [N2 s]
         Energy of the track and of its reference, integrated over each band.
     reference : str
         ``"line"`` (line fitted below resonance), ``"rigid"`` (exact rigid track) or ``"stiff"`` (very stiff
         track on the same ground).
     summation : str
         ``"energy"`` (squared support forces summed) or ``"coherent"`` (forces summed, then squared).
+    bands : Bands
+        The bands, by default one-third octaves from 5 Hz to 500 Hz.
     """
 
     levels: RealArray = field(repr=False)
@@ -108,6 +112,7 @@ class InsertionGain:
     reference_energy: RealArray = field(repr=False)
     reference: str
     summation: str
+    bands: Bands = ONE_THIRD_OCTAVES
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,9 @@ import html
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from trackig_core.bands import BAND_CENTRES, BAND_LABELS
+from trackig_core.bands import BAND_LABELS, chosen_bands
 from trackig_core.levels.insertion_gain import insertion_gain, own_reference
+from trackig_core.track.design import measured_curves
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from trackig_core.arrays import RealArray
+    from trackig_core.bands import Bands
     from trackig_core.results import ForceSpectrum, InsertionGain, NaturalFrequencies, TimeHistory
     from trackig_core.time_domain.grid import Grid
     from trackig_core.track.design import TrackDesign
@@ -74,25 +76,33 @@ class Solution:
     history: TimeHistory | None = None
     notes: tuple[str, ...] = ()
     stiff_spectrum: Callable[[TrackDesign], ForceSpectrum] | None = None
-    _gains: dict[tuple[str, str], InsertionGain] = field(default_factory=dict, init=False)
+    _gains: dict[tuple[str, str, Bands], InsertionGain] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
         """Remember the insertion gain that comes with the solution."""
-        self._gains[self.gain.reference, self.gain.summation] = self.gain
+        self._gains[self.gain.reference, self.gain.summation, self.gain.bands] = self.gain
 
     @property
     def band_centres(self) -> RealArray:
-        """Exact mid-band frequencies (21,) [Hz]."""
-        return BAND_CENTRES
+        """Exact mid-band frequencies (bands,) [Hz]."""
+        return self.gain.bands.centres
 
     @property
     def band_labels(self) -> tuple[str, ...]:
-        """Nominal mid-band frequencies, as text (21,) [Hz]."""
-        return BAND_LABELS
+        """Nominal mid-band frequencies, as text (bands,) [Hz]."""
+        return self.gain.bands.labels
+
+    @property
+    def extrapolated_bands(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text, of bands beyond what was measured of pad or boot [Hz]."""
+        beyond = {
+            band for curve in measured_curves(self.design).values() for band in curve.extrapolated_bands
+        }
+        return tuple(label for label in BAND_LABELS if label in beyond)
 
     @property
     def insertion_gain(self) -> RealArray:
-        """Insertion gain per band (21,) [dB]."""
+        """Insertion gain per band (bands,) [dB]."""
         return self.gain.levels
 
     @property
@@ -110,7 +120,9 @@ class Solution:
         """Low-passed force into the ground, summed over all supports (samples,) [N], or None."""
         return None if self.history is None else self.history.support_force @ self.history.multiplicity
 
-    def gain_for(self, reference: str | None = None, summation: str = "energy") -> InsertionGain:
+    def gain_for(
+        self, reference: str | None = None, summation: str = "energy", bands: str = "one-third-octave"
+    ) -> InsertionGain:
         """Return the insertion gain by another definition; each definition is computed once.
 
         Parameters
@@ -119,30 +131,48 @@ class Solution:
             ``"line"``, ``"rigid"`` or ``"stiff"``, as for :func:`trackig_core.solve`.
         summation : str
             ``"energy"`` or ``"coherent"``, as for :func:`trackig_core.insertion_gain`.
+        bands : str
+            A key of :data:`trackig_core.bands.BANDS`.
 
         Returns
         -------
         InsertionGain
-            Levels (21,) [dB] and the energies behind them.
+            Levels (bands,) [dB] and the energies behind them.
 
         Raises
         ------
         ValueError
-            If a choice is not one of the above, or the reference has no meaning for the design.
+            If a choice is not one of the above, the reference has no meaning for the design, or the spectrum
+            does not cover the bands.
         """
         reference = own_reference(self.design) if reference is None else reference
-        known = self._gains.get((reference, summation))
+        in_bands = self._covered(bands)
+        known = self._gains.get((reference, summation, in_bands))
         if known is None:
             loaded_track = self.natural_frequencies.loaded_track
             stiff = None
             if reference == "stiff" and self.stiff_spectrum is not None:
                 stiff = self.stiff_spectrum(self.design)
-            known = insertion_gain(self.spectrum, self.design, loaded_track, reference, summation, stiff)
-            self._gains[reference, summation] = known
+            known = insertion_gain(
+                self.spectrum, self.design, loaded_track, reference, summation, in_bands, stiff
+            )
+            self._gains[reference, summation, in_bands] = known
         return known
 
+    def _covered(self, name: str) -> Bands:
+        """Return the bands of a name, or raise a ValueError if the spectrum does not cover them."""
+        bands = chosen_bands(name)
+        lowest, highest = self.spectrum.frequency[[0, -1]]
+        first, last = bands.edges[[0, -1]]
+        if bands != self.gain.bands and not (lowest <= first and last <= highest):
+            raise ValueError(
+                f"bands = {name!r}: they reach from {first:.3g} to {last:.4g} Hz, and this solution from "
+                f"{lowest:.3g} to {highest:.4g} Hz; give bands to solve(), with fidelity 'exact'"
+            )
+        return bands
+
     def to_dataframe(self) -> pandas.DataFrame:
-        """Return the insertion gain as a table, one row per one-third-octave band.
+        """Return the insertion gain as a table, one row per band.
 
         Returns
         -------
@@ -155,12 +185,12 @@ class Solution:
 
         return pandas.DataFrame(
             {
-                "centre_hz": BAND_CENTRES,
+                "centre_hz": self.band_centres,
                 "insertion_gain_db": self.gain.levels,
                 "band_energy_n2s": self.gain.band_energy,
                 "reference_energy_n2s": self.gain.reference_energy,
             },
-            index=pandas.Index(BAND_LABELS, name="band_hz"),
+            index=pandas.Index(self.band_labels, name="band_hz"),
         )
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -180,10 +210,10 @@ class Solution:
 
         if ax is None:
             _, ax = plt.subplots(layout="constrained")
-        places = range(len(BAND_LABELS))
+        places = range(len(self.band_labels))
         ax.plot(places, self.gain.levels, drawstyle="steps-mid", label=self.fidelity)
-        ax.set_xticks(places, BAND_LABELS, rotation=90)
-        ax.set_xlabel("One-third-octave band [Hz]")
+        ax.set_xticks(places, self.band_labels, rotation=90)
+        ax.set_xlabel(f"{self.gain.bands.words} band [Hz]")
         ax.set_ylabel(f"Insertion gain re {REFERENCE_WORDS[self.gain.reference]} [dB]")
         ax.set_title(f"Insertion gain, {SUMMATION_WORDS[self.gain.summation]}")
         ax.grid(visible=True, alpha=0.3)
@@ -197,8 +227,8 @@ class Solution:
             summary["Coupled block"] = f"{frequencies.coupled_block:.1f} Hz"
         lowest, highest = int(levels.argmin()), int(levels.argmax())
         summary["Insertion gain"] = (
-            f"{levels[lowest]:.1f} dB at {BAND_LABELS[lowest]} Hz to "
-            f"{levels[highest]:.1f} dB at {BAND_LABELS[highest]} Hz"
+            f"{levels[lowest]:.1f} dB at {self.band_labels[lowest]} Hz to "
+            f"{levels[highest]:.1f} dB at {self.band_labels[highest]} Hz"
         )
         return summary
 

@@ -9,12 +9,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from trackig_core.bands import ONE_THIRD_OCTAVES, WIDEST, chosen_bands
 from trackig_core.frequency_domain import batch_kernels, floquet_waves
 from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.frequency_domain.convergence import time_step_errors
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
 from trackig_core.frequency_domain.refinement import banded_spectrum, gain_of, stiff_spectrum
-from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
+from trackig_core.frequency_domain.track_model import DAMPINGS, Track, TrackModel, track_model
 from trackig_core.levels.insertion_gain import SUMMATIONS, check_choice, check_reference, own_reference
 from trackig_core.results import ForceSpectrum, NaturalFrequencies, TimeHistory
 from trackig_core.solution import Solution
@@ -23,7 +24,13 @@ from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid
 from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
 from trackig_core.time_domain.time_stepping import Ending, simulate
 from trackig_core.track.catalogue import PRESETS
-from trackig_core.track.design import ELEMENTS_PER_BAY, DesignError, TrackDesign, axle_elements
+from trackig_core.track.design import (
+    ELEMENTS_PER_BAY,
+    DesignError,
+    TrackDesign,
+    axle_elements,
+    measured_curves,
+)
 from trackig_core.track.ground import GROUNDS
 
 POOR_FIT = 0.1
@@ -31,6 +38,12 @@ POOR_FIT = 0.1
 
 LARGE_STEP_ERROR = 0.5
 """Error of insertion gain in any band, made by the time step, above which the solution says so [dB]."""
+
+_WIDE_NOTES = (
+    "below 5 Hz a real wheel follows its suspension, and above 500 Hz the rail shears and three elements a "
+    "bay are few: read the outer bands with care",
+)
+"""What bands from 1 Hz to 1 kHz cost in validity."""
 
 FIDELITIES = ("paper", "live", "exact")
 """Fidelities that :func:`solve` offers."""
@@ -42,6 +55,8 @@ def solve(
     *,
     reference: str | None = None,
     summation: str = "energy",
+    damping: str = "viscoelastic",
+    bands: str = "one-third-octave",
     progress: Callable[[float], object] | None = None,
     cancelled: Callable[[], object] | None = None,
 ) -> Solution:
@@ -63,6 +78,12 @@ def solve(
         vehicle). By default the line, or where the ground yields, which leaves no other, the stiff track.
     summation : str
         ``"energy"`` (squared support forces, the paper's) or ``"coherent"`` (forces).
+    damping : str
+        ``"viscoelastic"`` (the paper's: loss stiffens with frequency) or, with fidelity ``"exact"`` alone,
+        ``"hysteretic"`` (k (1 + i eta) at every frequency, as many other programs have it; not causal).
+    bands : str
+        ``"one-third-octave"`` (5 Hz to 500 Hz, the paper's), ``"octave"`` (8 Hz to 250 Hz) or, with fidelity
+        ``"exact"`` alone, ``"wide one-third-octave"`` and ``"wide octave"`` (1 Hz to 1 kHz).
     progress : callable, optional
         Called now and then with the fraction done, 0 to 1, from the calling thread; not when exact.
     cancelled : callable, optional
@@ -71,7 +92,7 @@ def solve(
     Returns
     -------
     Solution
-        Insertion gain (21,) [dB] and all that led to it.
+        Insertion gain (bands,) [dB] and all that led to it.
 
     Raises
     ------
@@ -84,16 +105,27 @@ def solve(
     DesignError
         If ``design`` is no design, or its exact solution has no bound for want of any loss.
     ValueError
-        If a choice is not one of the above, or the reference has no meaning for the design.
+        If a choice is not one of the above, the reference has no meaning for the design, or hysteretic
+        damping or wide bands are to be stepped in time.
     """
-    model = track_model(design)
+    check_choice("damping", damping, DAMPINGS)
+    model = track_model(design, damping)
     check_choice("fidelity", fidelity, FIDELITIES)
     check_reference(model.design, own_reference(model.design) if reference is None else reference)
     check_choice("summation", summation, SUMMATIONS)
+    in_bands = chosen_bands(bands)
+    wide = in_bands.last > ONE_THIRD_OCTAVES.last
+    if wide and fidelity != "exact":
+        raise ValueError(f"bands = {bands!r} reach beyond a run's record: give fidelity 'exact'")
     grid: Grid | None = None
     history: TimeHistory | None = None
+    if fidelity != "exact" and not model.causal:
+        raise ValueError(
+            "damping = 'hysteretic' is not causal and cannot be stepped in time, as fidelity "
+            f"{fidelity!r} does: give fidelity 'exact', or damping 'viscoelastic'"
+        )
     if fidelity == "exact":
-        spectrum = banded_spectrum(model)
+        spectrum = banded_spectrum(model, bands=WIDEST if wide else ONE_THIRD_OCTAVES)
         notes = _sharpness_notes(spectrum)
     elif fidelity == "live":
         chosen = adaptive_grid.plan(model)
@@ -117,14 +149,18 @@ def solve(
     return Solution(
         design=model.design,
         fidelity=fidelity,
-        gain=gain_of(model, spectrum, reference, summation),
+        gain=gain_of(model, spectrum, reference, summation, in_bands),
         spectrum=spectrum,
         natural_frequencies=_observed(model, frequencies, spectrum, history),
         pad_law=model.pad,
         boot_law=model.boot,
         grid=grid,
         history=history,
-        notes=notes + _fit_notes(model) + _axle_notes(model.design),
+        notes=notes
+        + _fit_notes(model)
+        + _extrapolation_notes(model)
+        + (_WIDE_NOTES if wide else ())
+        + _axle_notes(model.design),
         stiff_spectrum=stiff_spectrum,
     )
 
@@ -197,6 +233,8 @@ def _observed(
 
 
 def _fit_notes(model: TrackModel) -> tuple[str, ...]:
+    if not model.causal:
+        return ("hysteretic damping, k (1 + i eta): not causal, for comparison with other programs",)
     return tuple(
         f"the law fitted to the {part} misses the stated values by up to {law.worst_error:.0%}, 5 to 500 Hz"
         for part, law in zip(("pad", "boot"), model.springs, strict=False)
@@ -220,6 +258,20 @@ def _axle_notes(design: TrackDesign) -> tuple[str, ...]:
         return ()
     places = ", ".join(f"{each:.3g}" for each in stand)
     return (f"axles stand on the nearest rail elements, {dx:.3g} m apart: at {places} m",)
+
+
+def _extrapolation_notes(model: TrackModel) -> tuple[str, ...]:
+    """Return which bands rest on more than was measured."""
+    notes = []
+    for name, curve in measured_curves(model.design).items():
+        first, last = curve.points[0][0], curve.points[-1][0]
+        low = [band for band in curve.extrapolated_bands if float(band) < first]
+        high = [band for band in curve.extrapolated_bands if float(band) > last]
+        parts = [f"up to {band} Hz" for band in low[-1:]] + [f"from {band} Hz on" for band in high[:1]]
+        if parts:
+            measured = f"the {name.replace('_', ' ')} was measured from {first:g} to {last:g} Hz"
+            notes.append(f"{measured}: bands {' and '.join(parts)} rest on extrapolation")
+    return tuple(notes)
 
 
 def _extension_notes(grid: Grid, history: TimeHistory) -> tuple[str, ...]:

@@ -108,10 +108,10 @@ def show_bands(plot, every=1):
     plot.xgrid.visible = False
 
 
-def zero_line():
-    """Return a line at zero on the value axis."""
+def zero_line(dimension="width"):
+    """Return a line at zero: on the vertical axis, or with ``"height"`` on the horizontal one."""
     return Span(
-        location=0, dimension="width", line_color=theme.PRESET_GHOST, line_width=theme.THIN_LINE_WIDTH
+        location=0, dimension=dimension, line_color=theme.PRESET_GHOST, line_width=theme.THIN_LINE_WIDTH
     )
 
 

@@ -137,7 +137,9 @@ def _result(study, record, summary):
     if summary is None:
         return DesignResult(record)
     gain = summary.solution.gain_for(study.view.reference, study.view.summation)
-    verdict = None if study.specification is None else study.specification.check(gain.levels)
+    limits = study.specification
+    deflection = tig.analysis.limited_deflection(limits, record.design)
+    verdict = None if limits is None else limits.check(gain.levels, deflection)
     level = None if study.source is None else study.source.with_track(gain.levels)
     return DesignResult(record, summary, gain, verdict, level)
 

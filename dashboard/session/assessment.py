@@ -107,10 +107,13 @@ class Assessment(param.Parameterized):
         if summary is None:
             return DesignResult(record)
         gain = self._definition.gain(summary.solution)
+        deflection = tig.analysis.limited_deflection(self.specification, record.design)
         return DesignResult(
             pinned=record,
             summary=summary,
             gain=gain,
-            verdict=None if self.specification is None else self.specification.check(gain.levels),
+            verdict=(
+                None if self.specification is None else self.specification.check(gain.levels, deflection)
+            ),
             level=None if self.source is None else self.source.with_track(gain.levels),
         )

@@ -1,11 +1,10 @@
 """One value per band, as a user gives it: typed into a table, pasted, or opened from a file.
 
-What is given is taken as a whole or not at all; then a message says where it is at fault,
-and what was there stays.
+What is given is taken as a whole, and what was set aside is said; or not at all, and then a message says
+where it is at fault, and what was there stays.
 """
 
 import html
-import re
 from pathlib import Path
 from typing import ClassVar
 
@@ -21,10 +20,6 @@ from dashboard.persistence.exports import file_name
 from trackig_core.levels.band_tables import MOST_BYTES, NOMINAL
 
 SCRIPT = Path(__file__).parent.parent / "client" / "scripts" / "band_grid.js"
-
-NUMBER = re.compile(r"[+-]?(\d{1,20}([.,]\d{0,20})?|[.,]\d{1,20})", re.ASCII)
-"""What may be typed into a box; the minus sign of typesetters becomes a hyphen first."""
-
 
 WIDE, NARROW = {"xs": 12, "lg": 9}, {"xs": 12, "lg": 3}
 """Parts of the width that the table has, and what stands beside it, or below on a narrow screen."""
@@ -91,12 +86,15 @@ class BandEditor(Viewer):
     def __init__(self, assessment, name, exchange, given, words):
         super().__init__()
         self._assessment, self._name, self._exchange = assessment, name, exchange
+        self.on_read = lambda _: ()
         self._kind = assessment.param[name].class_
         self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
         self.message = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(0, 12, 4, 12))
+        # where the table is higher than the window, the first message is out of sight of who pastes below it
+        self.answer = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(4, 12, 4, 12))
         self.pasted = pmui.TextAreaInput(
-            label="Paste: Hz and dB",
+            label="Paste a table of Hz and dB",
             placeholder=EXAMPLES[name],
             rows=8,
             max_length=MOST_BYTES,
@@ -117,56 +115,57 @@ class BandEditor(Viewer):
         """The table as it is kept, or None."""
         return getattr(self._assessment, self._name)
 
-    def take(self, data):
-        """Take a whole table, as bytes or text, or say why not."""
+    def take(self, data, message=None):
+        """Take a whole table, as bytes or text, or say why not in a pane, by default that of the table."""
         try:
-            table = self._kind.from_csv(data)
+            reading = self._kind.read(data)
         except tig.BandTableError as error:
-            self._tell(f"Not taken: {error}.")
+            self._tell(f"Not taken: {error}.", pane=message)
             return False
-        self._keep(table)
+        self._keep(reading.table)
+        notes = [*reading.notes, *self.on_read(reading)]
+        if notes:
+            self._tell(f"Taken; {'; '.join(notes)}.", "status", message)
         return True
 
     def _take_area(self, *_):
-        if self.take(self.pasted.value):
+        if self.take(self.pasted.value, self.answer):
             self.pasted.value = ""
 
     def _take_pasted(self, band, text):
         """Take what was pasted into a box: a table, or a single column that begins at the box."""
-        lines = text.strip().splitlines()
-        if any(re.search(r"[\t;]|\S\s+\S", line.strip()) for line in lines):
+        values = self._column(text.strip("\r\n"))
+        if values is None:
             self.take(text)
-            return
-        values = [_number(line) for line in lines]
-        if None in values or band + len(values) > len(NOMINAL):
+        elif band + len(values) > len(NOMINAL):
             self._tell(
                 f"Not taken: give one number a line, {len(NOMINAL) - band} at most from "
                 f"{tig.BAND_LABELS[band]} Hz on, or two columns, Hz and dB."
             )
-            return
-        self._change(dict(zip(NOMINAL[band:], values, strict=False)), band)
+        else:
+            self._change(dict(zip(NOMINAL[band:], values, strict=False)))
+
+    def _column(self, text):
+        """Return the levels of a column, None where there is none; or None if a line is no level."""
+        try:
+            # a tab stands between cells even where the numbers beside it could be read as one
+            return None if "\t" in text else [self._kind.quantity.read(line) for line in text.splitlines()]
+        except tig.BandTableError:
+            return None
 
     def _take_typed(self, band, text):
-        level = _number(text) if text.strip() else None
-        if text.strip() and level is None:
-            self._refuse(band, f"give {self._kind.quantity.allowed}, or nothing")
-        else:
-            self._change({NOMINAL[band]: level}, band)
+        try:
+            self._change({NOMINAL[band]: self._kind.quantity.read(text)})
+        except tig.BandTableError as error:
+            self._tell(f"Not taken: {tig.BAND_LABELS[band]} Hz: {error}.")
+            self.grid.refuse(band)
 
-    def _change(self, levels, band):
-        """Set levels by frequency, None to take one out; a fault is told at a band."""
+    def _change(self, levels):
+        """Set levels by frequency, None to take one out."""
         points = {**dict(self.table.points if self.table is not None else ()), **levels}
         points = [(frequency, level) for frequency, level in points.items() if level is not None]
-        try:
-            self._keep(
-                self._kind(points, self.table.name if self.table else self._kind.name) if points else None
-            )
-        except tig.BandTableError:
-            self._refuse(band, f"give {self._kind.quantity.allowed}, or nothing")
-
-    def _refuse(self, band, words):
-        self._tell(f"Not taken: {tig.BAND_LABELS[band]} Hz: {words}.")
-        self.grid.refuse(band)
+        name = self.table.name if self.table is not None else self._kind.name
+        self._keep(self._kind(points, name) if points else None)
 
     def _keep(self, table):
         self._tell("")
@@ -174,8 +173,10 @@ class BandEditor(Viewer):
         # the box of a number that was typed in another form, or refused, shows the number as it is kept
         self.grid.show_again()
 
-    def _tell(self, words):
-        self.message.object = f'<div role="alert">{html.escape(words)}</div>'
+    def _tell(self, words, role="alert", pane=None):
+        for each in (self.message, self.answer):
+            shown = words if each is (pane or self.message) else ""
+            each.object = f'<div role="{role}">{html.escape(shown)}</div>'
 
     def _show(self, *_):
         levels = dict(self.table.points) if self.table is not None else {}
@@ -198,7 +199,10 @@ class BandEditor(Viewer):
             self.message,
             pmui.Grid(
                 pmui.Grid(self.grid, size=WIDE),
-                pmui.Grid(pmui.Column(self.pasted, self.apply, sizing_mode="stretch_width"), size=NARROW),
+                pmui.Grid(
+                    pmui.Column(self.pasted, self.apply, self.answer, sizing_mode="stretch_width"),
+                    size=NARROW,
+                ),
                 container=True,
                 sizing_mode="stretch_width",
                 margin=0,
@@ -206,12 +210,6 @@ class BandEditor(Viewer):
             sizing_mode="stretch_width",
             margin=0,
         )
-
-
-def _number(text):
-    """Return the number that somebody typed, or None."""
-    plain = text.strip().replace("\N{MINUS SIGN}", "-")
-    return float(plain.replace(",", ".")) if NUMBER.fullmatch(plain) else None
 
 
 def _button(label, icon, **kind):

@@ -38,7 +38,22 @@ class SpecificationView(Tab):
             "Limit, dB",
             "Greatest insertion gain allowed, and the designs",
         )
+        self.editor.on_read = self._note_reading
+        self._says_loss, self._answered = False, False
+        turn = pmui.Button(label="Turn the sign", size="small", variant="contained", on_click=self._turn)
+        keep = pmui.Button(label="Keep as insertion gain", size="small", variant="text", on_click=self._keep)
+        self.question = pmui.Column(
+            pmui.Alert(
+                object=QUESTION, severity="warning", sizing_mode="stretch_width", margin=(0, 12, 4, 12)
+            ),
+            pmui.Row(turn, keep, margin=(0, 12, 8, 12)),
+            visible=False,
+            sizing_mode="stretch_width",
+            margin=0,
+        )
         assessment.param.watch(self._show, "results")
+        assessment.param.watch(self._ask, "specification")
+        self._ask()
 
     def refresh(self):
         """Show what has changed while nobody looked."""
@@ -50,15 +65,48 @@ class SpecificationView(Tab):
         self.verdict.object = verdicts_html(self._assessment.results)
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
 
+    def _note_reading(self, reading):
+        """Ask again of a table that was read, and return what to say of it."""
+        self._says_loss, self._answered = reading.says_loss, False
+        self._ask()
+        return (NOTE,) if self.question.visible else ()
+
+    def _ask(self, *_):
+        """Ask what the limits are while they look like insertion losses and nobody has answered."""
+        specification = self._assessment.specification
+        is_probable = specification is not None and specification.is_probably_loss
+        if specification is None:
+            self._says_loss = False
+        if not is_probable and not self._says_loss:
+            self._answered = False
+        self.question.visible = (is_probable or self._says_loss) and not self._answered
+
+    def _turn(self, *_):
+        self._says_loss, self._answered = False, True
+        self._assessment.specification = self._assessment.specification.turned()
+        self._ask()
+
+    def _keep(self, *_):
+        self._says_loss, self._answered = False, True
+        self._ask()
+
     def build(self):
         """Return what is put on the page."""
         return pmui.Column(
             pmui.Paper(caption("Verdict", WORDS), self.verdict, **PAPER),
-            pmui.Paper(caption("Required insertion gain", ""), self.editor, **PAPER),
+            pmui.Paper(caption("Required insertion gain", ""), self.question, self.editor, **PAPER),
             sizing_mode="stretch_width",
             margin=(0, 8, 8, 8),
         )
 
+
+QUESTION = (
+    "These limits look like an <b>insertion loss</b>, which counts what is taken away: the more, the better. "
+    "Insertion gain has the opposite sign: −10 dB asks for more than −5 dB, and limits above 0 dB ask for no "
+    "isolation at all."
+)
+
+NOTE = "the limits look like an insertion loss: answer the question above the table"
 
 WORDS = "bands without a limit are not assessed; a margin of exactly 0 dB complies"
 

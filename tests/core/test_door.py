@@ -1,6 +1,8 @@
 """The door: what it names, what it still answers to, and what it says to a newcomer."""
 
 import doctest
+import subprocess
+import sys
 
 import pytest
 
@@ -124,3 +126,11 @@ def test_a_rail_may_be_given_by_name():
     assert design.rail is tig.RAILS["49E1"]
     with pytest.raises(tig.DesignError, match="rail = '49E': give a Rail, or the name of one: 60, 49E1"):
         design.replace(rail="49E")
+
+
+def test_choices_between_designs_are_loaded_when_they_are_asked_for():
+    code = (
+        "import sys, trackig_core as tig; assert 'trackig_core.decide.feasible' not in sys.modules; "
+        "assert 'pymoo' not in sys.modules; tig.decide.feasible_ranges; assert 'pymoo' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -3,6 +3,7 @@
 import asyncio
 import runpy
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import panel as pn
@@ -147,12 +148,14 @@ class FakeStore:
 
 def test_the_server_begins_with_the_opening_preset(monkeypatch):
     fake = FakeStore()
-    begun = []
+    begun, prepared = [], []
     monkeypatch.setattr(app_hooks, "shared_store", lambda: fake)
     monkeypatch.setattr(app_hooks, "shared_live_store", lambda: fake)
     monkeypatch.setattr(app_hooks, "compiled", lambda: begun.append(True))
-    app_hooks.on_server_loaded(None)
+    monkeypatch.setattr(app_hooks.first_page, "prepare", lambda *words: prepared.append(words))
+    app_hooks.on_server_loaded(SimpleNamespace(application_context="ours"))
     assert begun
+    assert prepared == [("ours", app.TITLE)]
     assert fake.requested[0] == (tig.PRESETS["booted-block-low-mass"], AT_REST)
     assert {design for design, _ in fake.requested} == set(tig.PRESETS.values())
     app_hooks.on_server_unloaded(None)

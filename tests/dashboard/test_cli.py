@@ -2,6 +2,7 @@
 
 import contextlib
 import csv
+import dataclasses
 import io
 import json
 import os
@@ -109,11 +110,45 @@ def test_files_are_not_written_over_unless_forced(tmp_path, capsys, save):
     assert table.read_text() == "precious"
     assert main([*arguments, "--force"]) == 0
     assert table.read_text().startswith("frequency_hz")
-    path = save()
+    path = save("study.html")
     before = Path(path).read_text()
     assert main(["report", path, path, "--force"]) == 2
     assert "this is the file that is read" in capsys.readouterr().err
     assert Path(path).read_text() == before
+
+
+@pytest.mark.parametrize(
+    ("option", "begin"), [("--csv", "frequency_hz,insertion_gain_db\n5,"), ("--json", "{")]
+)
+def test_a_file_may_be_standard_output_which_then_holds_nothing_else(capsys, tmp_path, option, begin):
+    arguments = ["solve", "slab-track", "--fidelity", "exact", option]
+    assert main([*arguments, str(tmp_path / "file")]) == 0
+    assert "loaded track" in capsys.readouterr().out
+    assert main([*arguments, "-"]) == 0
+    output = capsys.readouterr().out
+    assert output == (tmp_path / "file").read_text()
+    assert output.startswith(begin)
+
+
+@pytest.mark.parametrize(
+    ("change", "field", "value"),
+    [
+        ("boot_stiffness=20kN/mm", "boot_stiffness", 20e6),
+        ("boot_stiffness = 20 kN/mm", "boot_stiffness", 20e6),
+        ("boot_stiffness=20e6", "boot_stiffness", 20e6),
+        ("boot_stiffness=20_000_000", "boot_stiffness", 20e6),
+        ("wheel_mass=880kg", "wheel_mass", 880.0),
+        ("wheel_mass=0,88 t", "wheel_mass", 880.0),
+        ("pad_loss_factor=20 %", "pad_loss_factor", 0.2),
+        ("fastener_spacing=60 cm", "fastener_spacing", 0.6),
+        ("rail=49E1", "rail", tig.RAILS["49E1"]),
+    ],
+)
+def test_a_change_may_have_a_unit(capsys, change, field, value):
+    arguments = ["solve", "booted-sleeper", "--fidelity", "exact", "--json", "-", "--set", change]
+    assert main(arguments) == 0
+    found = json.loads(capsys.readouterr().out)["design"][field]
+    assert found == (dataclasses.asdict(value) if field == "rail" else value)
 
 
 @pytest.mark.parametrize(
@@ -173,8 +208,13 @@ def test_a_report_is_written(save, tmp_path, capsys):
         (["solve", "zzz.toml"], "no preset and no file; presets are slab-track"),
         (["solve", "slab-track", "--set", "boot_stifness=2e7"], "'boot_stiffness'"),
         (["solve", "slab-track", "--set", "pad_stiffness=20"], "from 100000 to 1e+13 N/m"),
-        (["solve", "slab-track", "--set", "pad_stiffness=nan"], "pad_stiffness = nan"),
-        (["solve", "slab-track", "--set", "pad_stiffness=stiff"], "pad_stiffness = 'stiff'"),
+        (["solve", "slab-track", "--set", "pad_stiffness=nan"], "'nan' is no number; pad_stiffness is"),
+        (["solve", "slab-track", "--set", "pad_stiffness=stiff"], "a number from 100000 to 1e+13 N/m"),
+        (["solve", "slab-track", "--set", "pad_stiffness=20 kg"], "kg is a unit of mass; give N/m, N/mm"),
+        (["solve", "slab-track", "--set", "wheel_mass=1,200"], "'1,200' may be 1200 or 1.200"),
+        (["solve", "slab-track", "--csv", "-", "--json", "-"], "standard output takes one of them"),
+        (["report", "{tmp}/bare.toml", "{tmp}/x.pdf"], "write {tmp}/x.html, and print it to PDF"),
+        (["report", "{tmp}/bare.toml", "{tmp}/x"], "a report is an HTML file"),
         (["solve", "slab-track", "--set", "pad_stiffness"], "write FIELD=VALUE"),
         (["solve", "slab-track", "--set", "rail=99"], "rails are 60, 49E1"),
         (["solve", "slab-track", "--set", "boot_stiffness=2e7"], "come together"),
@@ -210,6 +250,30 @@ def test_wrong_usage_exits_with_two(arguments, capsys):
     assert "usage: trackig" in capsys.readouterr().err
 
 
+def test_a_specification_of_insertion_loss_is_not_taken_for_gain(save, tmp_path, capsys):
+    table, study = tmp_path / "limit.csv", save(design=tig.PRESETS["slab-track"])
+    arguments = ["check", study, "--fidelity", "exact", "--specification", str(table)]
+    table.write_text("Frequenz [Hz];Einfügungsdämm-Maß [dB]\n63;10\n630;10\n", encoding="utf-8")
+    assert main(arguments) == 2
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert "set aside, outside 5 to 500 Hz: 630 Hz" in output.err
+    assert "give --limits insertion-loss" in output.err
+    assert main([*arguments, "--limits", "insertion-loss"]) == 1
+    assert main([*arguments, "--limits", "insertion-gain"]) == 0
+    table.write_text("63;10\n")
+    capsys.readouterr()
+    assert main(arguments) == 0
+    assert "if they are insertion losses, give --limits insertion-loss" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
+def test_a_pipe_is_refused_at_once(tmp_path, capsys):
+    os.mkfifo(tmp_path / "fifo.toml")
+    assert main(["check", str(tmp_path / "fifo.toml")]) == 2
+    assert "this is not a regular file" in capsys.readouterr().err
+
+
 def test_help_names_units_and_ranges(capsys):
     with pytest.raises(SystemExit) as caught:
         main(["solve", "--help"])
@@ -222,7 +286,7 @@ def test_help_names_units_and_ranges(capsys):
 def run(arguments, folder, **more):
     """Start the command in a process of its own, away from the project's folder."""
     return subprocess.Popen(
-        [sys.executable, "-m", "dashboard.cli", *arguments],
+        [sys.executable, "-m", "dashboard", *arguments],
         cwd=folder,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         text=True,
@@ -241,6 +305,35 @@ def test_the_command_runs_as_a_process_and_lets_go_of_a_closed_pipe(tmp_path):
     assert process.stderr.read() == ""
     assert process.wait(120) == 0
     process.stderr.close()
+
+
+def test_verdicts_that_nobody_reads_do_not_pass_for_compliance(tmp_path, save):
+    process = run(
+        ["check", save(specification=FLOOR), "--fidelity", "exact"], tmp_path, stdout=subprocess.PIPE
+    )
+    process.stdout.close()
+    assert process.wait(120) == 141
+
+
+@pytest.mark.parametrize(
+    "crash",
+    [
+        "import sys; sys.modules['numba'] = None",  # an installation that lacks a part
+        "import trackig_core as tig; tig.solve = lambda *_, **__: 1 / 0",
+    ],
+)
+def test_a_crash_does_not_pass_for_a_verdict(crash, save):
+    script = f"{crash}\nimport sys\nfrom dashboard.__main__ import main\nsys.exit(main(sys.argv[1:]))"
+    done = subprocess.run(
+        [sys.executable, "-c", script, "check", save(specification=FLOOR)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 70
+    assert "Traceback" in done.stderr
+    assert "an error of trackig or its installation" in done.stderr
 
 
 def test_serve_shows_the_dashboard_from_anywhere(tmp_path):

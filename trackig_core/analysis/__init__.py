@@ -22,13 +22,27 @@ from trackig_core.analysis.lumped import (
 )
 from trackig_core.analysis.motion import Motion, film
 from trackig_core.analysis.rolland import PeerReceptance, peer_receptances
+from trackig_core.analysis.single_degree import single_degree_gain, single_degree_insertion_loss
+from trackig_core.analysis.statics import (
+    StaticResponse,
+    limited_deflection,
+    static_response,
+    zimmermann_deflection,
+)
 from trackig_core.analysis.stiff_reference import StiffReferences, stiff_references
+from trackig_core.analysis.track_response import (
+    TrackResponse,
+    point_receptance,
+    summed_decay_rate,
+    track_response,
+)
 from trackig_core.analysis.verification import Verification, verify
 from trackig_core.frequency_domain.convergence import element_errors, time_step_errors
 from trackig_core.frequency_domain.floquet_waves import receptance, track_decay_rate
 from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.frequency_domain.natural_frequencies import cut_on
 from trackig_core.frequency_domain.operating_shapes import SteadyShape, steady_shape
+from trackig_core.frequency_domain.track_model import track_model
 
 __all__ = [
     "GOOD_ENOUGH",
@@ -45,8 +59,10 @@ __all__ = [
     "Motion",
     "PeerReceptance",
     "Rung",
+    "StaticResponse",
     "SteadyShape",
     "StiffReferences",
+    "TrackResponse",
     "Verification",
     "compare_with_beam",
     "cut_on",
@@ -59,16 +75,25 @@ __all__ = [
     "gain_asymptotes",
     "gain_by_loss_factor",
     "ladder",
+    "limited_deflection",
     "lumped_frequencies",
     "lumped_insertion_gain",
     "lumped_spectrum",
     "measured_slopes",
     "peer_receptances",
+    "point_receptance",
     "receptance",
+    "single_degree_gain",
+    "single_degree_insertion_loss",
+    "static_response",
     "steady_shape",
     "stiff_references",
+    "summed_decay_rate",
     "time_step_errors",
     "track_decay_rate",
+    "track_model",
+    "track_response",
     "verify",
     "with_loss_factor",
+    "zimmermann_deflection",
 ]

@@ -69,7 +69,7 @@ def _curve(law: Relaxation, frequency: RealArray) -> DampingCurve:
 
 
 def with_loss_factor(design: Track, loss_factor: float) -> TrackDesign:
-    """Return a design whose pads and boots all have one loss factor, their stiffness at 50 Hz unchanged.
+    """Return a design whose pads and boots all have one loss factor, their stated stiffness unchanged.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def with_loss_factor(design: Track, loss_factor: float) -> TrackDesign:
     model = track_model(design)
     changes = {}
     for part, law in zip(("pad", "boot"), model.springs, strict=False):
-        changes[f"{part}_stiffness"] = law.stiffness(REFERENCE_FREQUENCY)
+        changes[f"{part}_stiffness"] = law.stiffness(model.design.stiffness_frequency)
         changes[f"{part}_loss_factor"] = loss_factor
     return model.design.replace(**changes)
 

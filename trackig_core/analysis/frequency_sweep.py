@@ -24,8 +24,11 @@ from trackig_core.frequency_domain import natural_frequencies as modes
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.track.fields import DESIGN_FIELDS, DesignError
 
-FIELDS = tuple(each.name for each in DESIGN_FIELDS)
-"""Fields of a design that can be varied: all that are numbers."""
+_STATED = ("pad_static_stiffness", "boot_static_stiffness", "stiffness_frequency")
+"""Numbers that say how a stiffness was measured, and are none of the track's own."""
+
+FIELDS = tuple(each.name for each in DESIGN_FIELDS if each.name not in _STATED)
+"""Fields of a design that can be varied: all numbers of the track itself."""
 
 NOTABLE = 0.05
 """Relative difference of frequencies below which lumped model and beam are said to agree [-]."""

@@ -241,7 +241,7 @@ def lumped_insertion_gain(design: Track, reference: str = "line", summation: str
     lowest = lumped_frequencies(model).coupled[0]
     stiff = stiff_spectrum(model.design) if reference == "stiff" else None
     spectrum = refined_spectrum(lambda between: lumped_spectrum(model, between), band_frequencies(lowest))
-    return insertion_gain(spectrum, model.design, lowest, reference, summation, stiff)
+    return insertion_gain(spectrum, model.design, lowest, reference, summation, stiff=stiff)
 
 
 def compare_with_beam(design: Track, reference: str = "line", summation: str = "energy") -> LumpedComparison:

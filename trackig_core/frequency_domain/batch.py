@@ -22,6 +22,11 @@ from trackig_core.frequency_domain import batch_kernels as kernels
 from trackig_core.frequency_domain.kernel_rows import law_row
 from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
 from trackig_core.frequency_domain.refinement import banded_spectrum, gain_of, stiff_spectrum
+from trackig_core.frequency_domain.static_lattice import (
+    bending_stiffness,
+    point_compliance,
+    support_stiffness,
+)
 from trackig_core.frequency_domain.track_model import track_model
 from trackig_core.levels.insertion_gain import (
     REFERENCES,
@@ -41,7 +46,8 @@ from trackig_core.track.design import (
     Rail,
     TrackDesign,
 )
-from trackig_core.track.fields import check_number
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, check_number
+from trackig_core.track.static_stiffness import stand_in
 from trackig_core.track.viscoelastic_law import NEGLIGIBLE, relaxation
 
 if TYPE_CHECKING:
@@ -95,6 +101,8 @@ class BatchSolution:
         yields.
     reference, summation : str
         Definition of :attr:`insertion_gain`.
+    wheel_load : float [N]
+        Static load of the wheel, for :attr:`rail_deflection`.
     """
 
     columns: Columns = field(repr=False)
@@ -105,6 +113,7 @@ class BatchSolution:
     line_ratio: RealArray = field(repr=False)
     reference: str = "line"
     summation: str = "energy"
+    wheel_load: float = DEFAULT_WHEEL_LOAD
 
     @property
     def band_centres(self) -> RealArray:
@@ -165,6 +174,21 @@ class BatchSolution:
         shape = self.loaded_track.shape
         return np.array(rows).reshape(*shape, len(SUMMATIONS), len(BAND_CENTRES))
 
+    @cached_property
+    def rail_deflection(self) -> RealArray:
+        """Static deflection of the rail under the wheel, over a support (...) [m]."""
+        spacing = self.columns["fastener_spacing"].astype(float)
+        rails = self.columns["rail"]
+        rail = np.array([rail.bending_stiffness for rail in rails.flat]).reshape(rails.shape)
+        support = support_stiffness(_static(self.columns, "pad"), _static(self.columns, "boot"))
+        return self.wheel_load * point_compliance(support, bending_stiffness(rail, spacing))
+
+    @cached_property
+    def deflection_at_least(self) -> BoolArray:
+        """Whether the rail sinks at least so far, a dynamic stiffness standing in for a static one (...)."""
+        pad, boot = (_missing(self.columns[f"{part}_static_stiffness"]) for part in ("pad", "boot"))
+        return pad | (boot & ~_missing(self.columns["boot_stiffness"]))
+
     def design(self, row: Row) -> TrackDesign:
         """Return one of the designs.
 
@@ -181,7 +205,13 @@ class BatchSolution:
         return _design({name: values[row] for name, values in self.columns.items()})
 
     def to_dataframe(self) -> "pandas.DataFrame":
-        """Return a pandas.DataFrame, one row a design: fields [SI], natural frequencies [Hz], bands [dB]."""
+        """Return a table of the designs.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row a design: fields [SI units], natural frequencies [Hz], static deflection [m], bands [dB].
+        """
         import pandas as pd
 
         shown = [name for name in FIELDS if name not in SURROUNDINGS or _is_on(name, self.columns[name])]
@@ -189,6 +219,7 @@ class BatchSolution:
         columns["rail"] = np.array([rail.name for rail in columns["rail"]])
         columns["loaded_track"] = self.loaded_track.ravel()
         columns["coupled_block"] = self.coupled_block.ravel()
+        columns["rail_deflection"] = self.rail_deflection.ravel()
         bands = self.insertion_gain.reshape(-1, len(BAND_LABELS))
         return pd.DataFrame(columns | dict(zip(BAND_LABELS, bands.T, strict=True)))
 
@@ -202,6 +233,7 @@ def solve_many(
     progress: Callable[[float], object] | None = None,
     cancelled: Callable[[], bool] | None = None,
     designs: Sequence[TrackDesign] | None = None,
+    wheel_load: float = DEFAULT_WHEEL_LOAD,
     **arrays: object,
 ) -> BatchSolution:
     """Compute the insertion gain and natural frequencies of many tracks, as ``solve(design, "exact")`` does.
@@ -226,6 +258,8 @@ def solve_many(
         Asked now and then; the run ends when it answers true.
     designs : sequence of TrackDesign, optional
         All designs, by name in place of ``base``.
+    wheel_load : float
+        Static load of the wheel, which sinks the rail by ``rail_deflection`` [N].
     **arrays : array_like
         Values by name of a field of the design [unit of the field]: numbers, rails or measured curves, which
         are broadcast against each other as NumPy does.
@@ -233,7 +267,7 @@ def solve_many(
     Returns
     -------
     BatchSolution
-        Insertion gain (..., 21) [dB] and natural frequencies (...) [Hz].
+        Insertion gain (..., 21) [dB], natural frequencies (...) [Hz] and static deflection (...) [m].
 
     Raises
     ------
@@ -246,6 +280,7 @@ def solve_many(
         not broadcast.
     """
     check_choice("summation", summation, SUMMATIONS)
+    wheel_load = check_number("wheel_load", wheel_load)
     if isinstance(base, TrackDesign):
         columns = _varied(base, arrays)
     elif arrays:
@@ -279,6 +314,7 @@ def solve_many(
         columns=columns,
         reference=reference,
         summation=summation,
+        wheel_load=wheel_load,
         **{name: values.reshape(shape + values.shape[1:]) for name, values in rows.items()},
     )
 
@@ -358,8 +394,14 @@ def _varied(base: TrackDesign, arrays: Mapping[str, object]) -> Columns:
         for place, rail in enumerate(rails.flat):
             if not isinstance(rail, Rail):
                 raise _in_row(DesignError("rail", rail, "a Rail, such as RAILS['60']"), place, shape)
-    columns = {name: np.broadcast_to(_column(getattr(base, name), name), shape) for name in FIELDS}
-    return columns | given
+    columns = {name: np.broadcast_to(_column(getattr(base, name), name), shape) for name in FIELDS} | given
+    if "boot_static_stiffness" not in given:  # it leaves with its boot
+        missing = _missing(columns["boot_stiffness"])
+        if missing.any():
+            static = columns["boot_static_stiffness"].astype(object)
+            static[missing] = None
+            columns["boot_static_stiffness"] = static
+    return columns
 
 
 def _first_row(base: TrackDesign, given: Columns) -> None:
@@ -400,6 +442,23 @@ def _axle_column(values: Any) -> AnyArray:
     array = np.empty(len(rows), dtype=object)
     array[:] = [None if row is None else tuple(row) for row in rows]
     return array
+
+
+def _missing(values: AnyArray) -> BoolArray:
+    """Return where a column has None."""
+    if values.dtype != object:
+        return np.zeros(values.shape, dtype=bool)
+    return np.array([value is None for value in values.flat], dtype=bool).reshape(values.shape)
+
+
+def _static(columns: Columns, part: str) -> RealArray:
+    """Return the static stiffness of pad or boot, infinite where there is none (...) [N/m]."""
+    static, dynamic = columns[f"{part}_static_stiffness"], columns[f"{part}_stiffness"]
+    if static.dtype != object:
+        return static
+    pairs = zip(static.flat, dynamic.flat, strict=True)
+    stiffness = [np.inf if k is None else stand_in(s, k) for s, k in pairs]
+    return np.array(stiffness, dtype=float).reshape(static.shape)
 
 
 def _plain(value: Any) -> Any:
@@ -506,10 +565,11 @@ def _tracks(columns: Columns) -> RealArray:
     """Return a chunk of designs as the kernels take them (n, 19)."""
     two_stage = np.array([mass is not None for mass in columns["block_mass"]])
     tracks = np.zeros((two_stage.size, kernels.COLUMNS))
-    _fill_laws(tracks[:, kernels.PAD : kernels.PAD + 7], columns["pad_stiffness"], columns["pad_loss_factor"])
-    boots = tracks[:, kernels.BOOT : kernels.BOOT + 7]
-    _fill_laws(boots, columns["boot_stiffness"], columns["boot_loss_factor"])
-    grounded = np.where(two_stage[:, None], boots, tracks[:, kernels.PAD : kernels.PAD + 7])
+    pads, boots = (tracks[:, first : first + 7] for first in (kernels.PAD, kernels.BOOT))
+    for laws, part in ((pads, "pad"), (boots, "boot")):
+        stiffness, loss_factor = columns[f"{part}_stiffness"], columns[f"{part}_loss_factor"]
+        _fill_laws(laws, stiffness, loss_factor, columns["stiffness_frequency"].astype(float))
+    grounded = np.where(two_stage[:, None], boots, pads)
     lossless = ~(grounded[:, 1:4] > 0).any(axis=1)
     if lossless.any():
         allowed = "more than 0: without loss the exact spectrum has no bound"
@@ -525,10 +585,10 @@ def _tracks(columns: Columns) -> RealArray:
     return tracks
 
 
-def _fill_laws(laws: RealArray, stiffness: AnyArray, loss_factor: AnyArray) -> None:
-    """Fill in the laws (n, 7) of springs; zeros where there is none."""
+def _fill_laws(laws: RealArray, stiffness: AnyArray, loss_factor: AnyArray, stated: RealArray) -> None:
+    """Fill in the laws (n, 7) of springs, stiffnesses stated at given frequencies; zeros for no spring."""
     if stiffness.dtype == loss_factor.dtype == float:
-        _fill_constant(laws, stiffness, loss_factor)
+        _fill_constant(laws, stiffness, loss_factor, stated)
         return
     plain = np.array(
         [
@@ -538,18 +598,26 @@ def _fill_laws(laws: RealArray, stiffness: AnyArray, loss_factor: AnyArray) -> N
     )
     if plain.any():
         constant = laws[plain]
-        _fill_constant(constant, stiffness[plain].astype(float), loss_factor[plain].astype(float))
+        _fill_constant(
+            constant, stiffness[plain].astype(float), loss_factor[plain].astype(float), stated[plain]
+        )
         laws[plain] = constant
     for row in np.flatnonzero(~plain):
         if stiffness[row] is not None:
-            laws[row] = law_row(relaxation(_plain(stiffness[row]), _plain(loss_factor[row])))
+            laws[row] = law_row(
+                relaxation(_plain(stiffness[row]), _plain(loss_factor[row]), float(stated[row]))
+            )
 
 
-def _fill_constant(laws: RealArray, stiffness: RealArray, loss_factor: RealArray) -> None:
+def _fill_constant(laws: RealArray, stiffness: RealArray, loss_factor: RealArray, stated: RealArray) -> None:
     """Fill in the laws (n, 7) of springs of constant loss factors."""
     strengths, times, _ = interpolated_terms(loss_factor)
     strengths[loss_factor < NEGLIGIBLE] = 0.0
     relaxed = strengths / (1 + (2 * np.pi * REFERENCE_FREQUENCY * times) ** 2)
-    laws[:, 0] = stiffness * (1.0 + relaxed.sum(axis=1))
+    instantaneous = 1.0 + relaxed.sum(axis=1)
+    if (stated != REFERENCE_FREQUENCY).any():
+        there = strengths / (1 + (2 * np.pi * stated[:, None] * times) ** 2)
+        stiffness = stiffness / (instantaneous - there.sum(axis=1))
+    laws[:, 0] = stiffness * instantaneous
     laws[:, 1:4] = stiffness[:, None] * strengths
     laws[:, 4:7] = times

@@ -17,9 +17,9 @@ three strengths [N/m], three times [s].
 import math
 
 import numpy as np
-from numba import njit
 
 from trackig_core.arrays import BoolArray, IntArray, RealArray
+from trackig_core.compiling import njit
 
 PAD, BOOT, BLOCK_MASS, BENDING, ELEMENT_MASS, WHEEL_MASS, CONTACT = 0, 7, 14, 15, 16, 17, 18
 COLUMNS = 19

@@ -68,8 +68,13 @@ class Waves:
         -------
         numpy.ndarray of complex (frequencies,) or (supports, frequencies)
             Receptance [m/N].
+
+        Raises
+        ------
+        ValueError
+            If a support is not a whole number.
         """
-        away = np.abs(np.asarray(support))[..., None, None]
+        away = np.abs(_supports(support))[..., None, None]
         if self.bays is None:
             return np.sum(self.amplitudes * self.multipliers**away, axis=-2)
         # waves that went round the ring the other way, and any number of times
@@ -107,6 +112,14 @@ class Waves:
         return np.sum(self.amplitudes * _two_sided(self.multipliers), axis=0)
 
 
+def _supports(support: ArrayLike) -> AnyArray:
+    """Return numbers of supports as integers, or raise a ValueError."""
+    numbers = np.asarray(support)
+    if numbers.dtype.kind not in "iuf" or not np.isin(numbers % 1, 0).all():
+        raise ValueError(f"support = {numbers}: give whole numbers of supports, counted from the force")
+    return numbers.astype(int)
+
+
 def _two_sided(ratio: ComplexArray) -> ComplexArray:
     return (1 + ratio) / (1 - ratio)
 
@@ -131,11 +144,11 @@ def waves(design: Track, frequency: ArrayLike, lattice: Lattice = INFINITE) -> W
     Raises
     ------
     ValueError
-        If a frequency is not greater than zero.
+        If a frequency is not finite and greater than zero.
     """
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
-    if not (frequency > 0).all():
-        raise ValueError("frequencies must be greater than 0 Hz")
+    if not (np.isfinite(frequency) & (frequency > 0)).all():
+        raise ValueError("frequencies must be finite and greater than 0 Hz")
     model = track_model(design)
     squared, supports = lattice.frequency_squared(frequency), model.supports(frequency, lattice)
     dx = model.design.fastener_spacing / lattice.elements_per_bay

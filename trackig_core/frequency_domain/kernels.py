@@ -6,9 +6,8 @@ globals but this file's own constants: Numba's disk cache notices neither a chan
 another file.
 """
 
-from numba import njit
-
 from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.compiling import njit
 
 
 @njit(nogil=True, cache=True)

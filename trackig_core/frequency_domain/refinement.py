@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from trackig_core.arrays import BoolArray, RealArray
-from trackig_core.bands import BAND_CENTRES, BAND_EDGES, LINE_FRACTION
+from trackig_core.bands import LINE_FRACTION, ONE_THIRD_OCTAVES, WIDEST, Bands
 from trackig_core.frequency_domain import batch_kernels
 from trackig_core.frequency_domain.axles import wheel_delays
 from trackig_core.frequency_domain.batch_kernels import (
@@ -42,9 +42,6 @@ STIFF_CONTACT = 1e15
 POINTS_PER_FRINGE = 8
 """Frequencies per fringe of wheels that follow each other [-]."""
 
-_OVER_BANDS = np.geomspace(BAND_EDGES[0], BAND_EDGES[-1], 12 * (len(BAND_EDGES) - 1) + 1)
-"""Frequencies from which a spectrum over all bands is refined [Hz], among them every band edge."""
-
 
 def resolved_spectrum(
     design: Track, frequency: RealArray, step: float, lattice: Lattice = INFINITE
@@ -68,7 +65,7 @@ def resolved_spectrum(
         Energy at the given and the added frequencies.
     """
     model = track_model(design)
-    if model.is_simplified and _is_compiled(lattice):
+    if model.is_simplified and model.causal and _is_compiled(lattice):
         axis, energy, coherent_energy = batch_kernels.resolve_row(
             model.row, *_stepping(model, lattice), frequency
         )
@@ -158,7 +155,7 @@ def require_damping(design: Track) -> None:
     ground = model.design.ground
     if ground is not None and ground.damping > 0:
         return
-    if not model.springs[-1].strengths or (ground is not None and ground.mass > 0):
+    if model.springs[-1].lossless or (ground is not None and ground.mass > 0):
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more than 0: without loss the exact spectrum has no bound")
 
@@ -175,13 +172,15 @@ def _grounded_loss(model: TrackModel) -> tuple[str, object]:
     return field, getattr(model.design, field)
 
 
-def band_frequencies(lowest: float) -> RealArray:
+def band_frequencies(lowest: float, bands: Bands = ONE_THIRD_OCTAVES) -> RealArray:
     """Return frequencies from which a spectrum over all bands may be refined.
 
     Parameters
     ----------
     lowest : float
         Loaded-track frequency, at a tenth of which the line is anchored [Hz].
+    bands : Bands
+        One-third octaves that the spectrum has to cover.
 
     Returns
     -------
@@ -189,12 +188,22 @@ def band_frequencies(lowest: float) -> RealArray:
         Frequencies [Hz], ascending, among them every band edge and the anchor if it lies below the bands.
     """
     anchor = LINE_FRACTION * lowest
-    if anchor >= BAND_EDGES[0]:
-        return _OVER_BANDS
-    return np.concatenate([np.geomspace(anchor, BAND_EDGES[0], 12)[:-1], _OVER_BANDS])
+    low, over = bands.edges[0], _over(bands)
+    return over if anchor >= low else np.concatenate([np.geomspace(anchor, low, 12)[:-1], over])
 
 
-def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DEFAULT_STEP) -> ForceSpectrum:
+@lru_cache(maxsize=8)
+def _over(bands: Bands) -> RealArray:
+    """Return frequencies from which a spectrum over bands is refined [Hz], among them every band edge."""
+    return np.geomspace(bands.edges[0], bands.edges[-1], 12 * (len(bands.edges) - 1) + 1)
+
+
+def banded_spectrum(
+    design: Track,
+    lattice: Lattice = INFINITE,
+    step: float = DEFAULT_STEP,
+    bands: Bands = ONE_THIRD_OCTAVES,
+) -> ForceSpectrum:
     """Return the spectrum over all one-third-octave bands, and down to where the line is anchored.
 
     Parameters
@@ -205,6 +214,8 @@ def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DE
         What to solve.
     step : float
         Height of the step [m].
+    bands : Bands
+        One-third octaves to cover.
 
     Returns
     -------
@@ -219,16 +230,17 @@ def banded_spectrum(design: Track, lattice: Lattice = INFINITE, step: float = DE
     model = track_model(design)
     require_damping(model)
     if model.design.speed is not None and len(model.design.axle_positions) > 1:
-        spectrum = _fringed(model, step, lattice)
+        spectrum = _fringed(model, step, lattice, bands)
     else:
-        spectrum = resolved_spectrum(model, band_frequencies(loaded_track(model)), step, lattice)
+        first = band_frequencies(loaded_track(model), bands)
+        spectrum = resolved_spectrum(model, first, step, lattice)
     if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")
     return spectrum
 
 
-def _fringed(model: TrackModel, step: float, lattice: Lattice) -> ForceSpectrum:
+def _fringed(model: TrackModel, step: float, lattice: Lattice, bands: Bands) -> ForceSpectrum:
     """Return the spectrum under wheels that follow each other over the same roughness.
 
     Its peaks are those under independent roughness. The delays put fringes on them, as narrow as the inverse
@@ -236,7 +248,7 @@ def _fringed(model: TrackModel, step: float, lattice: Lattice) -> ForceSpectrum:
     not end.
     """
     independent = replace(model, design=model.design.replace(speed=None))
-    axis = banded_spectrum(independent, lattice, step).frequency
+    axis = banded_spectrum(independent, lattice, step, bands).frequency
     delays = wheel_delays(model.design)
     longest = 0.0 if delays is None else delays.max()
     parts = np.ceil(np.diff(axis) * longest * POINTS_PER_FRINGE).astype(int).clip(1)
@@ -286,7 +298,8 @@ def stiff_spectrum(design: TrackDesign) -> ForceSpectrum:
     Returns
     -------
     ForceSpectrum
-        Energy over all bands, in continuous time on the infinite track, whatever solves the design.
+        Energy over all bands that may be chosen, in continuous time on the infinite track, whatever solves
+        the design.
 
     Raises
     ------
@@ -302,11 +315,15 @@ def _stiff_spectrum(stiff: TrackDesign) -> ForceSpectrum:
     model = track_model(stiff)
     if stiff.ground is not None:
         require_damping(model)
-    return resolved_spectrum(model, band_frequencies(float(BAND_CENTRES[-1])), DEFAULT_STEP)
+    return resolved_spectrum(model, band_frequencies(WIDEST.centres[-1], WIDEST), DEFAULT_STEP)
 
 
 def gain_of(
-    model: TrackModel, spectrum: ForceSpectrum, reference: str | None = None, summation: str = "energy"
+    model: TrackModel,
+    spectrum: ForceSpectrum,
+    reference: str | None = None,
+    summation: str = "energy",
+    bands: Bands = ONE_THIRD_OCTAVES,
 ) -> InsertionGain:
     """Return the insertion gain of a track whose spectrum is known.
 
@@ -321,6 +338,8 @@ def gain_of(
         the very stiff track.
     summation : str
         As for :func:`trackig_core.insertion_gain`.
+    bands : Bands
+        Bands, which the spectrum covers.
 
     Returns
     -------
@@ -334,7 +353,7 @@ def gain_of(
     """
     reference = own_reference(model.design) if reference is None else reference
     stiff = stiff_spectrum(model.design) if reference == "stiff" else None
-    return insertion_gain(spectrum, model.design, loaded_track(model), reference, summation, stiff)
+    return insertion_gain(spectrum, model.design, loaded_track(model), reference, summation, bands, stiff)
 
 
 def banded_gain(

@@ -14,10 +14,16 @@ from trackig_core.arrays import AnyArray, ComplexArray, RealArray
 from trackig_core.frequency_domain.kernel_rows import track_row
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice, dynamic_stiffness
 from trackig_core.track.design import DesignError, TrackDesign
+from trackig_core.track.hysteretic import hysteretic_laws
 from trackig_core.track.vehicle import dynamic_stiffness_above
 from trackig_core.track.viscoelastic_law import Relaxation, laws
 
 _Computed = TypeVar("_Computed")
+
+_Laws: TypeAlias = Callable[[TrackDesign], tuple[Relaxation, Relaxation | None]]
+
+DAMPINGS: dict[str, _Laws] = {"viscoelastic": laws, "hysteretic": hysteretic_laws}
+"""How pads and boots may be damped, and what makes their laws of a design."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,6 +135,11 @@ class TrackModel:
         return self if self.is_simplified else TrackModel(self.design.simplified, self.pad, self.boot)
 
     @property
+    def causal(self) -> bool:
+        """Whether every spring is, so that the track can be stepped in time and solved by compiled code."""
+        return all(law.causal for law in self.springs)
+
+    @property
     def rigid_blocks(self) -> "TrackModel":
         """The single-stage track on the same pads, its blocks held still."""
         if self.boot is None:
@@ -184,13 +195,16 @@ Track: TypeAlias = TrackDesign | TrackModel
 """A track as functions take it: a design, or the model made of it."""
 
 
-def track_model(track: Track) -> TrackModel:
+def track_model(track: Track, damping: str = "viscoelastic") -> TrackModel:
     """Return the model of a track.
 
     Parameters
     ----------
     track : TrackDesign or TrackModel
         A design, or a model, which is returned as it is.
+    damping : str
+        Of a design: ``"viscoelastic"``, springs that stiffen with frequency as their loss demands, or
+        ``"hysteretic"``, springs k (1 + i eta), which are not causal.
 
     Returns
     -------
@@ -200,13 +214,17 @@ def track_model(track: Track) -> TrackModel:
     Raises
     ------
     DesignError
-        If it is neither.
+        If it is neither, or a measured stiffness is to be hysteretic.
+    ValueError
+        If there is no such damping.
     """
     if isinstance(track, TrackModel):
         return track
     if not isinstance(track, TrackDesign):
         raise DesignError("design", track, "a TrackDesign, such as PRESETS['slab-track']")
-    return TrackModel(track, *laws(track))
+    if damping not in DAMPINGS:
+        raise ValueError(f"damping = {damping!r}: give {' or '.join(map(repr, DAMPINGS))}")
+    return TrackModel(track, *DAMPINGS[damping](track))
 
 
 def once_per_model(function: Callable[[TrackModel], _Computed]) -> Callable[[Track], _Computed]:

@@ -1,27 +1,32 @@
-"""One level per one-third-octave band, as a user gives it: rows of a table, or a CSV file.
+"""One level per one-third-octave band, as a user gives it: rows of numbers, or a table pasted or saved.
 
-Hz, dB. A CSV file has two columns, ``frequency_hz`` and the level. It may have a header, lines that begin
-with ``#``, and blank lines; an empty level leaves its band out. Commas, semicolons or tabs separate; after
-semicolons or tabs a decimal comma is read too, as European spreadsheets write it. Bands: IEC 61260-1.
+Hz, dB; bands: IEC 61260-1. What is written is a CSV file of two columns, ``frequency_hz`` and the level.
+What is read may be any table that a person would understand (see :mod:`trackig_core.typed_tables`): headers
+in any language, units, remarks, further columns of words, frequencies side by side; an empty level leaves its
+band out.
 
-A table that exists is sound. A file is read as a whole or refused as a whole, and the
-message names line and column.
+A table that exists is sound. What is ambiguous is refused, and the message names line and column; what is
+not needed (a band beyond 500 Hz, a remark) is set aside, and notes say so.
 """
 
-import csv
-import io
 import math
 import numbers
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from itertools import pairwise
+from typing import Any, ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
+from trackig_core.table_text import AT_LEAST, AT_MOST, Cell, TableError, parsed
+from trackig_core.table_text import MOST_BYTES as MOST_BYTES
+from trackig_core.typed_tables import Column, Table, read_table
+
+_Kind = TypeVar("_Kind", bound="BandTable")
 
 FREQUENCY_COLUMN = "frequency_hz"
 """Header of the first column."""
@@ -33,39 +38,35 @@ TOLERANCE = 0.02
 """Relative distance from the nominal or exact mid-band frequency within which a band is meant [-]: it lets
 base-two centres pass, and bands lie 26 % apart."""
 
-MOST_BYTES = 65536
-"""Size that a CSV file may have [bytes]."""
-
-MOST_LINES = 1000
-"""Lines that a CSV file may have [-]."""
-
-_NUMBER = re.compile(r"[+-]?(\d{1,20}(\.\d{0,20})?|\.\d{1,20})([eE][+-]?\d{1,3})?", re.ASCII)
-
-_SPACED = re.compile("[ ]*[0-9.,]{0,19}[0-9][ ]+[-+\N{MINUS SIGN}]?[0-9.,]{1,20}[ ]*")
-"""Two numbers with nothing but spaces between them, as copied from a letter or a PDF."""
+_LOSS = re.compile(
+    r"loss|dämm|daemm|dämpf|daempf|minder|reduc|réduc|reduz|riduz|attenu|atténu|affaibl|perte|pérdida|perdita"
+    r"|demping|\bD_?e\b|≥|>",
+    re.IGNORECASE,
+)
+"""What a header says of insertion loss, which is insertion gain with the sign turned."""
 
 
-class BandTableError(ValueError):
-    """A table of levels per band cannot be used.
+class BandTableError(TableError):
+    """A table of levels per band cannot be used; ``line`` and ``column`` say where it is at fault."""
+
+
+@dataclass(frozen=True)
+class Reading(Generic[_Kind]):
+    """A table of levels that was read, and what is to be said of it.
 
     Attributes
     ----------
-    line, column : int or None
-        Where, both counted from 1: the line of a file, or the row of a table; None if no place is at fault.
+    table : BandTable
+        The table.
+    notes : tuple of str
+        What was set aside or skipped, for people.
+    says_loss : bool
+        Whether header or signs (``>= 6``) say that the levels count what is lost: insertion loss.
     """
 
-    def __init__(
-        self, message: str, line: int | None = None, column: int | None = None, counted: str = "line"
-    ) -> None:
-        self.line, self.column = line, column
-        self._given = message, line, column, counted
-        places = ((counted, line), ("column", column))
-        where = ", ".join(f"{word} {number}" for word, number in places if number is not None)
-        super().__init__(f"{where}: {message}" if where else message)
-
-    def __reduce__(self) -> tuple[type, tuple[str, int | None, int | None, str]]:
-        """Let the error pass between processes."""
-        return type(self), self._given
+    table: _Kind
+    notes: tuple[str, ...]
+    says_loss: bool
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,10 @@ class Quantity:
         Least and greatest level [dB].
     error : type
         The :class:`BandTableError` that is raised.
+    hints : str
+        Regular expression of what a header may say of it, where several columns hold levels.
+    is_bound : bool
+        Whether each level is one, so that ``<=`` may stand before it.
     """
 
     column: str
@@ -89,11 +94,40 @@ class Quantity:
     low: float
     high: float
     error: type[BandTableError]
+    hints: str
+    is_bound: bool = False
 
     @property
     def allowed(self) -> str:
         """What may be given for a level."""
         return f"a number from {self.low:g} to {self.high:g} dB"
+
+    def read(self, text: str) -> float | None:
+        """Return the level that was typed for one band.
+
+        Parameters
+        ----------
+        text : str
+            What was typed, such as ``"-6,5"`` or ``"<= -6 dB"``.
+
+        Returns
+        -------
+        float or None
+            The level [dB]; None if nothing was given.
+
+        Raises
+        ------
+        BandTableError
+            If the text is no level.
+        """
+        cell = parsed(Cell(" ".join(text.split()), 1, 1), ",")
+        if cell.is_blank:
+            return None
+        in_decibels = cell.unit is None or cell.unit.quantity == "level"
+        bounded = cell.bound and not (self.is_bound and cell.bound == AT_MOST)
+        if cell.value is None or bounded or not in_decibels or not self.low <= cell.value <= self.high:
+            raise self.error(f"{brief(text)}: give {self.allowed}, or nothing")
+        return cell.value
 
 
 @dataclass(frozen=True)
@@ -128,27 +162,38 @@ class BandTable:
 
     @classmethod
     def from_csv(cls, data: str | bytes, name: str | None = None) -> Self:
-        """Read a CSV file.
+        """Return the table of :meth:`read`, without its notes."""
+        return cls.read(data, name).table
+
+    @classmethod
+    def read(cls, data: str | bytes, name: str | None = None) -> Reading[Self]:
+        """Read a table that was pasted or saved.
 
         Parameters
         ----------
         data : str or bytes
-            What the file holds.
+            What was pasted, or what the file holds.
         name : str, optional
             Name of the table.
 
         Returns
         -------
-        BandTable
-            An object of this class.
+        Reading
+            An object of this class, and what is to be said of it.
 
         Raises
         ------
         BandTableError
-            If the file cannot be used; its ``line`` and ``column`` say where.
+            If the table cannot be used; its ``line`` and ``column`` say where.
         """
-        points = _checked(_read(data, cls.quantity), cls.quantity, "line")
-        return cls(points) if name is None else cls(points, name)  # type: ignore[call-arg]  # subclasses name themselves
+        try:
+            points, notes, says_loss = _read(data, cls.quantity)
+        except BandTableError:
+            raise
+        except TableError as error:
+            raise cls.quantity.error(error.message, error.line, error.column) from None
+        table = cls(points) if name is None else cls(points, name)  # type: ignore[call-arg]  # subclasses name themselves
+        return Reading(table, notes, says_loss)
 
     def to_csv(self) -> str:
         """Return the table as a CSV file (str), which :meth:`from_csv` reads back exactly."""
@@ -179,8 +224,12 @@ def _written(quantity: Quantity, points: Iterable[tuple[float, float | str]]) ->
     return "\n".join(lines) + "\n"
 
 
-def _rows(points: Iterable[Iterable[Any]], quantity: Quantity) -> list[tuple[int, Any, Any]]:
-    """Return given rows as (number, frequency, level)."""
+_Place = tuple[int, int, int]
+"""Line, column of the frequency and column of the level."""
+
+
+def _rows(points: Iterable[Iterable[Any]], quantity: Quantity) -> list[tuple[_Place, Any, Any]]:
+    """Return given rows as (place, frequency, level)."""
     columns = f"{FREQUENCY_COLUMN}, {quantity.column}"
     try:
         rows = [tuple(row) for row in points]
@@ -189,28 +238,28 @@ def _rows(points: Iterable[Iterable[Any]], quantity: Quantity) -> list[tuple[int
     for number, row in enumerate(rows, start=1):
         if len(row) != 2:
             raise quantity.error(f"{len(row)} values: give {columns}", number, counted="row")
-    return [(number, *row) for number, row in enumerate(rows, start=1)]
+    return [((number, 1, 2), *row) for number, row in enumerate(rows, start=1)]
 
 
 def _checked(
-    rows: Iterable[tuple[int, Any, Any]], quantity: Quantity, counted: str
+    rows: Iterable[tuple[_Place, Any, Any]], quantity: Quantity, counted: str
 ) -> tuple[tuple[float, float], ...]:
-    """Return (line, frequency, level) as points in the order of the bands, or raise the quantity's error."""
+    """Return (place, frequency, level) as points in the order of the bands, or raise the quantity's error."""
     found: dict[int, tuple[int, float]] = {}
-    for line, frequency, level in rows:
+    for (line, first, second), frequency, level in rows:
         band = _band(frequency)
         if band is None:
-            raise quantity.error(_unknown_band(frequency), line, 1, counted)
+            raise quantity.error(_unknown_band(frequency), line, first, counted)
         verified = _number(level)
         if verified is None or not quantity.low <= verified <= quantity.high:
             message = f"{quantity.column} = {brief(level)}: give {quantity.allowed}"
-            raise quantity.error(message, line, 2, counted)
+            raise quantity.error(message, line, second, counted)
         if band in found:
             message = (
                 f"the band {BAND_LABELS[band]} Hz stands in {counted} {found[band][0]} already: "
                 "give each band once"
             )
-            raise quantity.error(message, line, 1, counted)
+            raise quantity.error(message, line, first, counted)
         found[band] = line, verified
     if not found:
         raise quantity.error(f"no band has a value: give at least one row of {FREQUENCY_COLUMN} and level")
@@ -249,87 +298,132 @@ def _unknown_band(frequency: object) -> str:
     return f"{shown} is the middle of no one-third-octave band: the nearest is {near} Hz"
 
 
-def _read(data: str | bytes, quantity: Quantity) -> list[tuple[int, Any, Any]]:
-    """Return the rows of a CSV file as (line, frequency, level), those without a level left out."""
-    lines = re.split("\r\n|\r|\n", _decoded(data, quantity.error))
-    if len(lines) > MOST_LINES:
-        raise quantity.error(f"{len(lines)} lines: give at most {MOST_LINES}")
-    full = [(number, line) for number, line in enumerate(lines, start=1) if not _is_empty(line)]
-    separator = _separator(full[0][1]) if full else ","
-    cells = [(number, _cells(line, separator)) for number, line in full]
-    if cells and _parsed(cells[0][1][0], separator) is None:
-        _check_header(*cells.pop(0), quantity)
-    rows: list[tuple[int, Any, Any]] = []
-    for number, row in cells:
-        if len(row) > 2:
-            message = (
-                f"{len(row)} values: give {FREQUENCY_COLUMN} and {quantity.column} alone; "
-                "if numbers have decimal commas, separate them by semicolons"
-            )
-            raise quantity.error(message, number, 3)
-        frequency, *level = (_parsed(cell, separator, cell) for cell in row)
-        if _band(frequency) is None:
-            raise quantity.error(_unknown_band(frequency), number, 1)
-        if level:
-            rows.append((number, frequency, level[0]))
-    return rows
+def _is_band_of_any_range(frequency: float) -> bool:
+    """Return whether a frequency [Hz] names a one-third-octave band from 0.8 Hz to 20 kHz."""
+    if not 0.79 < frequency < 20_400:
+        return False
+    decade = 10.0 ** math.floor(math.log10(frequency / 4.9))
+    return _band(frequency / decade) is not None
 
 
-def _separator(line: str) -> str:
-    """Return what separates the columns of a table that begins with a line."""
-    if _SPACED.fullmatch(line):
-        return " "
-    return next((each for each in "\t;" if each in line), ",")
-
-
-def _decoded(data: str | bytes, error: type[BandTableError]) -> str:
-    """Return a file's text."""
-    if len(data) > MOST_BYTES:
-        raise error(f"the file is larger than {MOST_BYTES // 1024} kB: a table has one short line per band")
-    text = data if isinstance(data, str) else _text(data)
-    if text is None or "\0" in text:
-        raise error("this is not a text file: save the table as CSV")
-    return text.removeprefix("\N{BYTE ORDER MARK}")
-
-
-def _text(data: bytes) -> str | None:
-    """Return what bytes say, or None if they are no text."""
-    # spreadsheets write UTF-16 with a mark, or a national code, whose figures are plain all the same
-    for code in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
-        try:
-            return data.decode(code)
-        except UnicodeDecodeError:
+def _read(
+    data: str | bytes, quantity: Quantity
+) -> tuple[tuple[tuple[float, float], ...], tuple[str, ...], bool]:
+    """Return points, notes, and whether the levels are said to count what is lost."""
+    # no level has thousands of decibels, so that a comma is decimal unless the table shows otherwise
+    table = read_table(data, is_axis=_is_band_of_any_range, undecided=",")
+    frequencies = _frequencies(table, quantity)
+    levels = _levels(table, frequencies, quantity)
+    notes = [f"{each.words} is not read" for each in table.columns if each not in (frequencies, levels)]
+    rows, outside, blank = [], [], []
+    for cell, given in zip(frequencies.cells, levels.cells, strict=True):
+        if cell.is_blank and given.value is None:
             continue
-    return None
+        if cell.is_words:
+            notes.append(f"line {cell.line} is not read: {brief(cell.text)} is no frequency")
+            continue
+        frequency = _frequency(frequencies, cell, quantity)
+        if _band(frequency) is None:
+            outside.append(f"{frequency:g}")
+        elif given.is_blank:
+            blank.append(BAND_LABELS[_band(frequency) or 0])
+        else:
+            level = levels.value_in(given, "dB") if given.value is not None else given.text
+            rows.append(((given.line, cell.column, given.column), frequency, level))
+    if outside:
+        bands = f"{BAND_LABELS[0]} to {BAND_LABELS[-1]} Hz"
+        notes.append(f"set aside, outside {bands}: {', '.join(outside)} Hz")
+    if blank:
+        notes.append(f"no value at {', '.join(blank)} Hz")
+    says_loss = _says_loss(levels, quantity)
+    points = _checked(rows, quantity, "line")
+    if _are_octaves(points):
+        notes.append("only octave bands are given: each is taken as its one-third-octave band")
+    return points, (*table.notes, *notes), says_loss
 
 
-def _is_empty(line: str) -> bool:
-    """Return whether a line is blank or a comment."""
-    return not line.strip(" \t;,") or line.lstrip(' \t"').startswith("#")
+def _frequencies(table: Table, quantity: Quantity) -> Column:
+    """Return the column that holds the frequencies."""
+    if len(table.columns) < 2:
+        message = f"no band has a value: give at least one row of {FREQUENCY_COLUMN} and level"
+        raise quantity.error(message)
+    named = [each for each in table.columns if each.is_frequency]
+    several = [each for each in named if _are_bands(each)] or named
+    if several:
+        return several[0]
+    able = [each for each in _uncounted(table.columns) if each.unit is None]
+    return next((each for each in able if np.isfinite(each.values).any()), table.columns[0])
 
 
-def _cells(line: str, separator: str) -> list[str]:
-    """Return the cells of a line without empty ones at its end; the first stays."""
-    if separator == " ":
-        return line.split()
-    cells = [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=separator))]
-    while len(cells) > 1 and not cells[-1]:
-        cells.pop()
-    return cells
+def _uncounted(columns: Sequence[Column]) -> list[Column]:
+    """Return columns without one that numbers the rows of a table of three or more."""
+    return [each for each in columns if len(columns) < 3 or not each.is_counting]
 
 
-def _parsed(cell: str, separator: str, otherwise: str | None = None) -> float | str | None:
-    """Return the number that a cell holds, else ``otherwise``."""
-    text = cell.replace("\N{MINUS SIGN}", "-")
-    if separator != "," and "." not in text:
-        text = text.replace(",", ".")
-    return float(text) if _NUMBER.fullmatch(text) else otherwise
+def _are_bands(column: Column) -> bool:
+    """Return whether all numbers of a column of frequencies name bands, as band edges do not."""
+    values = column.values_in("Hz")
+    return all(_band(each) is not None or _is_band_of_any_range(each) for each in values[np.isfinite(values)])
 
 
-def _check_header(line: int, cells: Sequence[str], quantity: Quantity) -> None:
-    wanted = (FREQUENCY_COLUMN, quantity.column)
-    for column, name in enumerate(wanted, start=1):
-        given = cells[column - 1] if len(cells) >= column else ""
-        if given.casefold() != name:
-            message = f"{brief(given)} where {name!r} is due: begin the file with {','.join(wanted)}"
-            raise quantity.error(message, line, column)
+def _levels(table: Table, frequencies: Column, quantity: Quantity) -> Column:
+    """Return the column that holds the levels, or raise the quantity's error if several may."""
+    others = [each for each in _uncounted(table.columns) if each is not frequencies]
+    named = [each for each in others if each.header.casefold() == quantity.column]
+    able = [each for each in others if each.unit is None or each.unit.quantity == "level"]
+    in_decibels = [each for each in able if each.unit is not None]
+    numeric = [each for each in able if each.is_numeric]
+    hinted = [each for each in numeric if re.search(quantity.hints, each.header, re.IGNORECASE)]
+    for choice in (named, in_decibels, numeric, hinted, able, others):
+        if len(choice) == 1:
+            return _of_quantity(choice[0], quantity)
+    several = hinted or numeric or able or others
+    words = " and ".join(each.words for each in several[:2])
+    commas = "" if several[0].header else "; if numbers have decimal commas, separate them by semicolons"
+    message = f"{words} may both hold {quantity.column}: keep one, or call it {quantity.column}{commas}"
+    raise quantity.error(message, several[1].head.line, several[1].head.column)
+
+
+def _of_quantity(column: Column, quantity: Quantity) -> Column:
+    """Return a column unless its header is that of another quantity."""
+    header = column.header.casefold()
+    if header in _COLUMNS and header != quantity.column:
+        message = (
+            f"{brief(column.header)} where {quantity.column!r} is due: this table is of another quantity"
+        )
+        raise quantity.error(message, column.head.line, column.head.column)
+    return column
+
+
+_COLUMNS = ("ig_max_db", "level_db")
+"""Headers of levels in the files that are written."""
+
+
+def _frequency(column: Column, cell: Cell, quantity: Quantity) -> float:
+    """Return the frequency [Hz] of a cell that names a band of any range, or raise the quantity's error."""
+    if cell.value is None or cell.bound:
+        raise quantity.error(_unknown_band(cell.text), cell.line, cell.column)
+    frequency = column.value_in(cell, "Hz")
+    if _band(frequency) is None and not _is_band_of_any_range(frequency):
+        raise quantity.error(_unknown_band(frequency), cell.line, cell.column)
+    return frequency
+
+
+def _says_loss(levels: Column, quantity: Quantity) -> bool:
+    """Return whether levels are said to count what is lost; what contradicts itself is refused."""
+    bounded = [each for each in levels.cells if each.bound]
+    for cell in bounded:
+        if not quantity.is_bound:
+            raise quantity.error(f"{brief(cell.text)}: give the level alone", cell.line, cell.column)
+        if cell.bound != bounded[0].bound or (cell.bound == AT_LEAST and (cell.value or 0) < 0):
+            message = f"{brief(cell.text)}: give {quantity.words.lower()}, or the least insertion loss"
+            raise quantity.error(message, cell.line, cell.column)
+    if bounded:
+        return bounded[0].bound == AT_LEAST
+    return quantity.is_bound and _LOSS.search(levels.header) is not None
+
+
+def _are_octaves(points: Sequence[tuple[float, float]]) -> bool:
+    """Return whether three or more bands lie an octave apart each."""
+    bands = [NOMINAL.index(frequency) for frequency, _ in points]
+    return len(bands) > 2 and all(second - first == 3 for first, second in pairwise(bands))

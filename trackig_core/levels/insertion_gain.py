@@ -11,7 +11,7 @@ from scipy.integrate import simpson
 from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import RealArray
-from trackig_core.bands import BAND_EDGES, LINE_FRACTION, decibels
+from trackig_core.bands import BAND_EDGES, LINE_FRACTION, ONE_THIRD_OCTAVES, Bands, decibels
 from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import TrackDesign
 from trackig_core.track.vehicle import rigid_energy
@@ -33,9 +33,10 @@ def insertion_gain(
     loaded_track: float,
     reference: str = "line",
     summation: str = "energy",
+    bands: Bands = ONE_THIRD_OCTAVES,
     stiff: ForceSpectrum | None = None,
 ) -> InsertionGain:
-    """Return the insertion gain of a track per one-third-octave band.
+    """Return the insertion gain of a track per band.
 
     Parameters
     ----------
@@ -53,6 +54,8 @@ def insertion_gain(
         under the same vehicle, the only reference where the ground yields.
     summation : str
         ``"energy"``: squared support forces are summed. ``"coherent"``: forces are summed.
+    bands : Bands
+        Bands, which the spectrum covers; by default one-third octaves from 5 Hz to 500 Hz.
     stiff : ForceSpectrum, optional
         Spectrum of the very stiff track; needed for ``"stiff"`` only.
 
@@ -75,22 +78,23 @@ def insertion_gain(
     if reference == "stiff":
         if stiff is None:
             raise ValueError("reference = 'stiff': give stiff, or use solve(), which computes it")
-        in_bands = integrate_bands(stiff.frequency, summed_energy(stiff, summation))
+        in_bands = integrate_bands(stiff.frequency, summed_energy(stiff, summation), bands.edges)
         reference_energy = in_bands * (spectrum.step / stiff.step) ** 2
     elif reference == "line":
         # E grows as that of a rigid track here, which a cubic spline follows between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
         height = float(density(anchor)) / _rise(design, anchor)
-        reference_energy = _rise_in_bands(design, float(height))
+        reference_energy = _rise_in_bands(design, float(height), bands)
     else:
-        reference_energy = rigid_band_energy(design, spectrum.step)
-    band_energy = _over_bands(density)
+        reference_energy = rigid_band_energy(design, spectrum.step, bands)
+    band_energy = _over_bands(density, bands.edges)
     return InsertionGain(
         levels=decibels(band_energy / reference_energy),
         band_energy=band_energy,
         reference_energy=reference_energy,
         reference=reference,
         summation=summation,
+        bands=bands,
     )
 
 
@@ -109,7 +113,7 @@ def own_reference(design: TrackDesign) -> str:
     return "line" if design.ground is None else "stiff"
 
 
-def rigid_band_energy(design: TrackDesign, step: float) -> RealArray:
+def rigid_band_energy(design: TrackDesign, step: float, bands: Bands = ONE_THIRD_OCTAVES) -> RealArray:
     """Return the energy that a rigid track passes in each band after a step of roughness.
 
     Parameters
@@ -118,15 +122,17 @@ def rigid_band_energy(design: TrackDesign, step: float) -> RealArray:
         The track, for its wheels and what they carry.
     step : float
         Height of the step [m].
+    bands : Bands
+        Bands.
 
     Returns
     -------
-    numpy.ndarray (21,)
+    numpy.ndarray (bands,)
         Energy [N2 s].
     """
     # E = (m_w w^2 step)^2 / w^2 under a wheel without suspension
     height = 2 * np.pi * design.wheel_mass * step if design.one_unsprung_wheel else step
-    return _rise_in_bands(design, height**2)
+    return _rise_in_bands(design, height**2, bands)
 
 
 def _rise(design: TrackDesign, frequency: RealArray) -> RealArray:
@@ -134,12 +140,12 @@ def _rise(design: TrackDesign, frequency: RealArray) -> RealArray:
     return frequency**2 if design.one_unsprung_wheel else rigid_energy(design, frequency)
 
 
-def _rise_in_bands(design: TrackDesign, height: float) -> RealArray:
-    """Return ``height`` times :func:`_rise` integrated over the bands (21,)."""
+def _rise_in_bands(design: TrackDesign, height: float, bands: Bands) -> RealArray:
+    """Return ``height`` times :func:`_rise` integrated over the bands (bands,)."""
     if design.one_unsprung_wheel:
-        cubes: RealArray = height * np.diff(BAND_EDGES**3) / 3
+        cubes: RealArray = height * np.diff(bands.edges**3) / 3
         return cubes
-    nodes = np.linspace(BAND_EDGES[:-1], BAND_EDGES[1:], 2 * PANELS + 1)
+    nodes = np.linspace(bands.edges[:-1], bands.edges[1:], 2 * PANELS + 1)
     return height * np.asarray(simpson(_rise(design, nodes), nodes, axis=0))
 
 
@@ -154,8 +160,8 @@ def check_choice(name: str, value: object, choices: Collection[str]) -> None:
         raise ValueError(f"{name} = {value!r}: give {' or '.join(repr(choice) for choice in choices)}")
 
 
-def integrate_bands(frequency: RealArray, density: RealArray) -> RealArray:
-    """Integrate a spectral density over the one-third-octave bands.
+def integrate_bands(frequency: RealArray, density: RealArray, edges: RealArray = BAND_EDGES) -> RealArray:
+    """Integrate a spectral density over neighbouring bands.
 
     The density is joined by a cubic spline, which is integrated to the exact band edges: a resonance
     three points wide is then still within 0.001 dB, where weighted bins miss by ten times as much.
@@ -163,24 +169,26 @@ def integrate_bands(frequency: RealArray, density: RealArray) -> RealArray:
     Parameters
     ----------
     frequency : numpy.ndarray (frequencies,)
-        Frequencies [Hz], ascending, evenly spaced or not, covering the bands from 5 Hz to 500 Hz.
+        Frequencies [Hz], ascending, evenly spaced or not, covering the bands.
     density : numpy.ndarray (frequencies,)
         Density at those frequencies [unit/Hz].
+    edges : numpy.ndarray (bands + 1,)
+        Edges of the bands [Hz]; by default those of the one-third octaves from 5 Hz to 500 Hz.
 
     Returns
     -------
-    numpy.ndarray (21,)
+    numpy.ndarray (bands,)
         Integral over each band [unit].
     """
-    return _over_bands(CubicSpline(frequency, density))
+    return _over_bands(CubicSpline(frequency, density), edges)
 
 
-def _over_bands(spline: CubicSpline) -> RealArray:
-    inner = (spline.x > BAND_EDGES[0]) & (spline.x < BAND_EDGES[-1])
-    nodes = np.sort(np.concatenate([spline.x[inner], BAND_EDGES]))
+def _over_bands(spline: CubicSpline, edges: RealArray) -> RealArray:
+    inner = (spline.x > edges[0]) & (spline.x < edges[-1])
+    nodes = np.sort(np.concatenate([spline.x[inner], edges]))
     at_nodes, between = spline(nodes), spline((nodes[:-1] + nodes[1:]) / 2)
     # Simpson's rule is exact for cubics. Panels are summed band by band: the difference of one running sum
     # would lose bands that lie 160 dB below others.
     panels = np.diff(nodes) * (at_nodes[:-1] + 4 * between + at_nodes[1:]) / 6
-    energy: RealArray = np.add.reduceat(panels, np.searchsorted(nodes, BAND_EDGES[:-1]))
+    energy: RealArray = np.add.reduceat(panels, np.searchsorted(nodes, edges[:-1]))
     return energy

@@ -109,6 +109,7 @@ class SourceSpectrum(BandTable):
         low=-200.0,
         high=300.0,
         error=SourceError,
+        hints=r"level|pegel|source|quelle|niveau|livell|nivel|\bL",
     )
 
     def with_track(self, insertion_gain: ArrayLike) -> TrackLevel:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from trackig_core.decide.questions import Answer
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
@@ -33,6 +34,8 @@ class Study:
         What the study is called.
     preset : str or None
         Key of ``PRESETS`` from which the current design departs, if from any.
+    answers : iterable of Answer
+        Questions that were asked about designs, and what came out.
 
     Raises
     ------
@@ -47,6 +50,7 @@ class Study:
     view: View = field(default_factory=View)
     name: str = toml_format.UNTITLED
     preset: str | None = None
+    answers: tuple[Answer, ...] = ()
 
     def __post_init__(self) -> None:
         """Check every value once."""
@@ -61,6 +65,9 @@ class Study:
                 raise StudyError(
                     "None: only the current design has no colour of its own", f"pinned[{number}].colour"
                 )
+        object.__setattr__(self, "answers", tuple(self.answers))
+        for number, answer in enumerate(self.answers):
+            check_kind(answer, Answer, f"answers[{number}]")
         if self.specification is not None:
             check_kind(self.specification, Specification, "specification")
         if self.source is not None:

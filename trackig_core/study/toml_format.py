@@ -10,6 +10,7 @@ refused rather than dropped, and an error says where it is and what to do.
 from __future__ import annotations
 
 import difflib
+import textwrap
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields
@@ -17,19 +18,21 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import tomlkit
-from tomlkit.items import Float, Table, Trivia
+from tomlkit.items import Array, Float, Table, Trivia
 
+from trackig_core.decide.questions import Answer, Question
 from trackig_core.levels.band_tables import BandTable, BandTableError
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.study.records import PinnedDesign, StudyError, View
-from trackig_core.track.design import ONE_AXLE, TrackDesign
+from trackig_core.track.design import ONE_AXLE, REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.fields import (
     AXLE_FIELDS,
     DESIGN_FIELDS,
     GROUND_FIELDS,
     RAIL_FIELDS,
+    STATIC_FIELDS,
     SUSPENSION_FIELDS,
     DesignError,
 )
@@ -59,8 +62,14 @@ LONGEST_LINE = 200
 """Characters that a line may have, unless it is a comment [-]. Dotted keys cost a reader the square of their
 length; with this bound the worst file takes about a second."""
 
+LONGEST_TEXT = 100
+"""Characters of a sentence that are written on one line [-]."""
+
 _DESIGN_KEYS = {each.name: each.key for each in DESIGN_FIELDS}
 """Key of each number of a design."""
+
+_OPTIONAL = {"stiffness_frequency": REFERENCE_FREQUENCY}
+"""What a number is that a file leaves out."""
 
 _RAIL_KEYS = {"name": "name"} | {each.name: each.key for each in RAIL_FIELDS}
 """Key of the name and of each number of a rail."""
@@ -73,6 +82,9 @@ _PARTS: dict[str, tuple[type[Suspension] | type[Ground], dict[str, str]]] = {
     "ground": (Ground, {each.name: each.key for each in GROUND_FIELDS}),
 }
 """Class of what a design may stand under and on, and the key of each of its numbers."""
+
+_LIMIT_KEYS = {each.name: each.key for each in STATIC_FIELDS}
+"""Key of the limit of rail deflection, and of the load under which it holds."""
 
 _CURVES: dict[str, tuple[str, type[StiffnessCurve] | type[LossFactorCurve]]] = {
     "pad_stiffness": ("pad_stiffness_measured", StiffnessCurve),
@@ -112,7 +124,8 @@ class _Section:
 
     def take(self, key: str, otherwise: Any = None) -> Any:
         """Return the value of a key, or ``otherwise`` if it is not there."""
-        self._known.append(key)
+        if key not in self._known:
+            self._known.append(key)
         return self._values.get(key, otherwise)
 
     def need(self, key: str) -> Any:
@@ -196,6 +209,7 @@ def read(data: str | bytes) -> dict[str, Any]:
         "design": _design(section.section("design")),
         "view": view,
         "pinned": [_pinned(_Section(each, f"pinned[{number}]")) for number, each in enumerate(pinned)],
+        "answers": _answers(section),
         **tables,
     }
     section.close()
@@ -237,16 +251,59 @@ def _table(
         return None
     section = study.section(name)
     points, title = section.need(key), section.take("name", kind.name)
+    limits = _limits(section) if kind is Specification else {}
     section.close()
     try:
-        return kind(points, title)
+        return kind(points, title, **limits)
     except BandTableError as error:
         path = section.path if error.line is None else section.under(key)
         raise StudyError(str(error), path) from None
 
 
+def _limits(section: _Section) -> dict[str, Any]:
+    """Return what a specification says of rail deflection, as arguments of it."""
+    limits = {name: section.take(key) for name, key in _LIMIT_KEYS.items()}
+    if limits["rail_deflection_limit"] is None and limits["wheel_load"] is not None:
+        key = _LIMIT_KEYS["rail_deflection_limit"]
+        raise StudyError(f"give {key} too, or remove it", section.under(_LIMIT_KEYS["wheel_load"]))
+    return {name: value for name, value in limits.items() if value is not None}
+
+
+def _answers(study: _Section) -> list[Answer]:
+    """Return the questions that were asked, and what came out."""
+    given = study.take("answers", [])
+    if not isinstance(given, list):
+        raise StudyError(f"{brief(given)}: write each answer under [[answers]]", "answers")
+    return [_answer(_Section(each, f"answers[{number}]")) for number, each in enumerate(given)]
+
+
+def _answer(section: _Section) -> Answer:
+    values = {
+        "kind": section.need("question"),
+        "design": _design(section.section("design")),
+        "settings": section.take("settings", {}),
+        "reference": section.take("reference", "line"),
+        "summation": section.take("summation", "energy"),
+        **{name: _table(section, name, *kind) for name, kind in _TABLES.items()},
+    }
+    lines, digest, versions = (section.need(key) for key in ("sentence", "digest", "versions"))
+    section.close()
+    for key, value, kind, words in (
+        ("settings", values["settings"], dict, "a table of keys and values"),
+        ("sentence", lines, list, "a list of its lines"),
+        ("digest", digest, str, "a text"),
+        ("versions", versions, dict, "a table of names and versions"),
+    ):
+        if not isinstance(value, kind):
+            raise StudyError(f"{brief(value)}: give {words}", section.under(key))
+    try:
+        return Answer(Question(**values), " ".join(map(str, lines)), digest, versions)
+    except (TypeError, ValueError) as error:
+        raise StudyError(str(error), section.path) from None
+
+
 def _design(section: _Section) -> TrackDesign:
-    values = {name: section.take(key) for name, key in _DESIGN_KEYS.items()}
+    values = {name: section.take(key, _OPTIONAL.get(name)) for name, key in _DESIGN_KEYS.items()}
     for name, (key, kind) in _CURVES.items():
         points = section.take(key)
         if points is None:
@@ -302,7 +359,9 @@ def written(study: Study) -> str:
     """Return a study as the text of a file."""
     document = tomlkit.document()
     document.add(tomlkit.comment("A study of trackig: insertion gain of railway track supports."))
-    document.add(tomlkit.comment("SI units, as the keys say; stiffnesses are dynamic stiffnesses at 50 Hz."))
+    document.add(
+        tomlkit.comment("SI units, as the keys say; stiffnesses are dynamic, at 50 Hz unless stated.")
+    )
     for key, value in (("format", FORMAT), ("version", VERSION), ("name", study.name)):
         document.add(key, value)
     if study.preset is not None:
@@ -317,6 +376,11 @@ def written(study: Study) -> str:
         for each in study.pinned:
             pinned.append(_written_pinned(each))
         document.add("pinned", pinned)
+    if study.answers:
+        answers = tomlkit.aot()
+        for answer in study.answers:
+            answers.append(_written_answer(answer))
+        document.add("answers", answers)
     return tomlkit.dumps(document)
 
 
@@ -337,13 +401,54 @@ def _written_pinned(pinned: PinnedDesign) -> Table:
     return table
 
 
+def _written_answer(answer: Answer) -> Table:
+    question, table = answer.question, tomlkit.table()
+    table.add("question", question.kind)
+    table.add("sentence", _list(textwrap.wrap(answer.sentence, LONGEST_TEXT)))
+    for key in ("digest", "versions"):
+        table.add(key, getattr(answer, key))
+    for key in ("reference", "summation"):
+        table.add(key, getattr(question, key))
+    if question.settings:
+        table.add("settings", _written_settings(question.settings))
+    table.add("design", _written_design(question.design))
+    for name, (_, key) in _TABLES.items():
+        if getattr(question, name) is not None:
+            table.add(name, _written_table(getattr(question, name), key))
+    return table
+
+
+def _written_settings(settings: Mapping[str, Any]) -> Table:
+    """Return plain values as a table; lists stand one entry a line."""
+    table = tomlkit.table()
+    for key, value in settings.items():
+        if isinstance(value, Mapping):
+            table.add(key, _written_settings(value))
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
+            rows = tomlkit.aot()
+            for each in value:
+                rows.append(_written_settings(each))
+            table.add(key, rows)
+        elif isinstance(value, list | tuple):
+            table.add(key, _list(value))
+        else:
+            table.add(key, value)
+    return table
+
+
+def _list(values: Iterable[Any]) -> Array:
+    array = tomlkit.array()
+    array.extend(values)
+    return array.multiline(True)
+
+
 def _written_design(design: TrackDesign) -> Table:
     table = tomlkit.table()
     for name, key in _DESIGN_KEYS.items():
         value = getattr(design, name)
         if isinstance(value, StiffnessCurve | LossFactorCurve):
             _add_rows(table, _CURVES[name][0], value.points, _CURVE_ROWS[type(value)])
-        elif value is not None:
+        elif value is not None and value != _OPTIONAL.get(name):
             table.add(key, _number(value))
     rail = tomlkit.table()
     for name, key in _RAIL_KEYS.items():
@@ -377,6 +482,9 @@ def _written_table(levels: BandTable, key: str) -> Table:
     table = tomlkit.table()
     table.add("name", levels.name)
     _add_rows(table, key, levels.points, _LEVEL_ROWS)
+    if isinstance(levels, Specification) and levels.rail_deflection_limit is not None:
+        for name, limit in _LIMIT_KEYS.items():
+            table.add(limit, _number(getattr(levels, name)))
     return table
 
 

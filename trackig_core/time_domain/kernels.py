@@ -9,12 +9,24 @@ No objects, no I/O, and no globals but this file's own constants. Numba's disk c
 neither a changed global nor an edit in another file.
 """
 
-from numba import njit
-
 from trackig_core.arrays import IntArray, RealArray
+from trackig_core.compiling import njit
+from trackig_core.time_domain.vectors import (
+    WIDTH,
+    Vector,
+    first_lane,
+    load,
+    one_lane_down,
+    one_lane_up,
+    spread,
+    store,
+)
 
-LANES = 16
-"""Stretches into which the half ring is cut, to be stepped side by side [-]: two vectors of eight doubles."""
+LANES = WIDTH
+"""Stretches into which the half ring is cut, to be stepped side by side [-]: a vector."""
+
+QUANTITIES = 8
+"""Rows of lanes per row of supports: block, its velocity, three memory terms of pad and of boot."""
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"})
@@ -42,25 +54,21 @@ def advance(
     two_stage: bool,
     taps: RealArray,
     factor: int,
-    first: int,
     record: RealArray,
 ) -> None:
     """Step the half ring through time, and keep a low-passed row of what happens every few steps.
 
     Forces come from the displacements of one instant; velocities follow, then displacements. The
-    memory of each pad and boot is kept as terms R_j [N], of which the force is
+    memory of each pad and boot is kept as terms z_j [m], of which the force is
 
-        f = k_now e - sum_j R_j,    then    R_j <- decay_j R_j + gain_j e
+        f = k_now e - sum_j gain_j z_j,    then    z_j <- decay_j z_j + e
 
     so first-order and second-order integration differ only in the numbers k_now, decay and gain.
 
     The half ring is cut into :data:`LANES` stretches that lie side by side in memory (see
-    :mod:`trackig_core.time_domain.memory_layout`), so that every loop below runs over whole vectors; only
-    where a stretch begins or ends do its neighbours lie one lane further. On one core of a server of 2024
-    with 512-bit vectors (4.1 GHz) a step of the paper's ring takes 0.55 us, which is 50 GFlop/s and 37 % of
-    what a loop of nothing but multiply-adds in registers reached in the same run; memory traffic is what
-    holds it back, since the 41 kB that a step reads and writes fill the first-level cache.
-    ``tests/benchmarks`` measures it.
+    :mod:`trackig_core.time_domain.memory_layout`), so that one vector holds the same element of each; only
+    where a stretch begins or ends do its neighbours lie one lane further. A step is one sweep along the
+    stretches, which reads and writes each quantity once.
 
     Parameters
     ----------
@@ -68,13 +76,14 @@ def advance(
         Displacement of the rail's elements [m], with two rows of ghosts at either end; changed.
     rail_velocity : numpy.ndarray (elements * LANES,)
         Velocity of the rail's elements [m/s]; changed.
-    supports : numpy.ndarray (bays, 8 * LANES)
+    supports : numpy.ndarray (bays, QUANTITIES * LANES)
         Per row of supports: displacement [m] and velocity [m/s] of the blocks, three memory terms of
-        the pads and three of the boots [N]; changed. All but the pads' stay zero when single-stage.
+        the pads and three of the boots [m]; changed. All but the pads' stay zero when single-stage.
     wheel : numpy.ndarray (2,)
         Displacement [m] and velocity [m/s] of the wheel; changed.
-    window : numpy.ndarray (taps, columns)
-        Last rows of the record at full rate; changed.
+    window : numpy.ndarray (factor + sums + 1, columns)
+        Rows of the record at full rate since a row was last kept; sums for the next rows to be kept, of which
+        they are parts; a row of zeros. All but the last are changed.
     mirrors : numpy.ndarray of int (4,)
         Places of the elements that the ghosts beyond both ends of the half ring mirror.
     rail_probes, block_probes : numpy.ndarray of int
@@ -86,7 +95,7 @@ def advance(
     pad_stiffness, boot_stiffness : float
         k_now [N/m].
     pad_decay, pad_gain, boot_decay, boot_gain : numpy.ndarray (3,)
-        Factor per step [-] and feed [N/m] of the memory terms.
+        Factor per step [-] and share in the force [N/m] of the memory terms.
     element_mass, block_mass, wheel_mass : float
         Masses [kg].
     contact_stiffness : float
@@ -94,43 +103,37 @@ def advance(
     two_stage : bool
         Whether there are blocks and boots.
     taps : numpy.ndarray (taps,)
-        Filter before the record is thinned out, newest row first [-]; a multiple of four of them.
+        Filter before the record is thinned out, newest row first [-]; at least ``sums * factor`` of them.
     factor : int
         Time steps per row of the record.
-    first : int
-        Time steps taken before this call.
     record : numpy.ndarray (rows, columns)
         Filled: force that each support passes into the ground [N], displacement of the wheel, of the
         rail's and of the blocks' probes [m].
     """
-    rail_rows = rail.reshape(rail.size // LANES, LANES)
-    velocity_rows = rail_velocity.reshape(rail_velocity.size // LANES, LANES)
-    count = first
+    bays, columns = supports.shape[0], record.shape[1]
+    per_bay = rail_velocity.size // (bays * LANES)
+    per_element, per_block = time_step / element_mass, time_step / block_mass
+    state, rows = supports.reshape(supports.size), window.reshape(window.size)
+    kept_rows = record.reshape(record.size)
     for kept in range(record.shape[0]):
-        for _ in range(factor):
-            row = window[count % window.shape[0]]
+        for since in range(factor):
+            row = since * columns
             fill_ghosts(rail, mirrors)
-            record_displacements(row, rail, supports, wheel, rail_probes, block_probes)
-            if two_stage:
-                step_two_stage(
-                    rail_rows, velocity_rows, supports, row, time_step, element_mass, block_mass,
-                    pad_stiffness, pad_decay, pad_gain, boot_stiffness, boot_decay, boot_gain,
-                )  # fmt: skip
-            else:
-                step_single_stage(
-                    rail_rows, velocity_rows, supports, row, time_step, element_mass,
-                    pad_stiffness, pad_decay, pad_gain,
-                )  # fmt: skip
+            record_displacements(rows, row + bays * LANES, rail, state, wheel, rail_probes, block_probes)
             contact = contact_stiffness * (wheel[0] - rail[2 * LANES])
             wheel[1] -= time_step * contact / wheel_mass
             wheel[0] += time_step * wheel[1]
-            rail_velocity[0] += time_step * contact / element_mass
-            step_rail(rail, rail_velocity, bending, time_step)
-            count += 1
-        apply_fir(window, count - 1, taps, record[kept])
+            sweep(
+                rail, rail_velocity, state, rows, row, bays, per_bay, per_element * contact, time_step,
+                bending, per_element, per_block, pad_stiffness, pad_decay, pad_gain, boot_stiffness,
+                boot_decay, boot_gain, two_stage,
+            )  # fmt: skip
+        sum_up(rows, columns, factor, window.shape[0] - factor - 1, taps)
+        for column in range(0, columns, WIDTH):
+            store(kept_rows, kept * columns + column, load(rows, factor * columns + column))
 
 
-@njit(nogil=True, cache=True, inline="always")
+@njit(nogil=True, cache=True)
 def fill_ghosts(
     rail: RealArray,
     mirrors: IntArray,
@@ -143,18 +146,16 @@ def fill_ghosts(
         As in :func:`advance`.
     """
     end = rail.size - 2 * LANES
-    rail[0], rail[LANES] = rail[mirrors[0]], rail[mirrors[1]]
-    rail[end + LANES - 1], rail[end + 2 * LANES - 1] = rail[mirrors[2]], rail[mirrors[3]]
-    for lane in range(1, LANES):
-        rail[lane] = rail[end - 2 * LANES + lane - 1]
-        rail[LANES + lane] = rail[end - LANES + lane - 1]
-        rail[end + lane - 1] = rail[2 * LANES + lane]
-        rail[end + LANES + lane - 1] = rail[3 * LANES + lane]
+    store(rail, 0, one_lane_up(load(rail, end - 2 * LANES), rail[mirrors[0]]))
+    store(rail, LANES, one_lane_up(load(rail, end - LANES), rail[mirrors[1]]))
+    store(rail, end, one_lane_down(load(rail, 2 * LANES), rail[mirrors[2]]))
+    store(rail, end + LANES, one_lane_down(load(rail, 3 * LANES), rail[mirrors[3]]))
 
 
-@njit(nogil=True, cache=True, inline="always")
+@njit(nogil=True, cache=True)
 def record_displacements(
-    row: RealArray,
+    rows: RealArray,
+    place: int,
     rail: RealArray,
     supports: RealArray,
     wheel: RealArray,
@@ -165,199 +166,178 @@ def record_displacements(
 
     Parameters
     ----------
-    row, rail, supports, wheel, rail_probes, block_probes : numpy.ndarray
-        As in :func:`advance`.
-    """
-    column = supports.shape[0] * LANES
-    row[column] = wheel[0]
-    for place in rail_probes:
-        column += 1
-        row[column] = rail[place]
-    for place in block_probes:
-        column += 1
-        row[column] = supports[place // (8 * LANES), place % (8 * LANES)]
-
-
-@njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def viscoelastic_force(
-    memory: RealArray,
-    place: int,
-    strain: float,
-    stiffness: float,
-    keep0: float,
-    keep1: float,
-    keep2: float,
-    feed0: float,
-    feed1: float,
-    feed2: float,
-) -> float:
-    """Return the force of a spring with three memory terms [N], and let the terms take up its strain.
-
-    Parameters
-    ----------
-    memory : numpy.ndarray
-        A row of supports; its terms stand :data:`LANES` places apart from ``place`` on; changed [N].
+    rows : numpy.ndarray
+        Filled from ``place`` on.
     place : int
-        First term.
-    strain : float
-        e [m].
-    stiffness, keep0, keep1, keep2, feed0, feed1, feed2 : float
-        k_now [N/m], decays [-] and gains [N/m].
+        Where the first displacement goes.
+    rail, supports, wheel, rail_probes, block_probes : numpy.ndarray
+        As in :func:`advance`, ``supports`` as one row.
     """
-    term0, term1, term2 = memory[place], memory[place + LANES], memory[place + 2 * LANES]
-    memory[place] = keep0 * term0 + feed0 * strain
-    memory[place + LANES] = keep1 * term1 + feed1 * strain
-    memory[place + 2 * LANES] = keep2 * term2 + feed2 * strain
-    return stiffness * strain - (term0 + term1 + term2)
+    rows[place] = wheel[0]
+    for probe in range(rail_probes.size):
+        rows[place + 1 + probe] = rail[rail_probes[probe]]
+    place += 1 + rail_probes.size
+    for probe in range(block_probes.size):
+        rows[place + probe] = supports[block_probes[probe]]
 
 
-@njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def step_two_stage(
-    rail_rows: RealArray,
-    velocity_rows: RealArray,
+@njit(nogil=True, cache=True, fastmath={"contract"})
+def sweep(
+    rail: RealArray,
+    rail_velocity: RealArray,
     supports: RealArray,
-    row: RealArray,
+    forces: RealArray,
+    force_place: int,
+    bays: int,
+    per_bay: int,
+    kick: float,
     time_step: float,
-    element_mass: float,
-    block_mass: float,
+    bending: float,
+    per_element: float,
+    per_block: float,
     pad_stiffness: float,
     pad_decay: RealArray,
     pad_gain: RealArray,
     boot_stiffness: float,
     boot_decay: RealArray,
     boot_gain: RealArray,
+    two_stage: bool,
 ) -> None:
-    """Let pads push rail and blocks, boots push blocks and ground; move the blocks.
+    """Let rail, pads and boots push, and move rail and blocks, in one sweep along the stretches.
+
+    Displacements that a later element needs as they were are kept in registers: two behind the element that
+    moves, itself, and two ahead.
 
     Parameters
     ----------
-    rail_rows, velocity_rows : numpy.ndarray (elements + 4, LANES) and (elements, LANES)
-        Displacements [m], ghosts included, and velocities [m/s] of the rail; the velocities are changed.
-    row : numpy.ndarray
-        Its first columns are filled with the boots' forces [N].
-    supports, time_step, element_mass, block_mass, pad_stiffness, pad_decay, \
-pad_gain, boot_stiffness, boot_decay, boot_gain
-        As in :func:`advance`.
+    forces : numpy.ndarray
+        Filled with what the supports pass into the ground [N], from ``force_place`` on.
+    force_place, bays, per_bay : int
+        See ``forces``; bays in each stretch, elements in each bay.
+    kick : float
+        What the contact force adds to the velocity of the first element [m/s].
+    per_element, per_block : float
+        Time step over the mass of an element and of a block [s/kg].
+    rail, rail_velocity, supports, time_step, bending, pad_stiffness, pad_decay, pad_gain, \
+boot_stiffness, boot_decay, boot_gain, two_stage
+        As in :func:`advance`, ``supports`` as one row; the first three are changed.
     """
-    bays = supports.shape[0]
-    step = velocity_rows.shape[0] // bays
-    per_element, per_block = time_step / element_mass, time_step / block_mass
-    p0, p1, p2 = pad_decay[0], pad_decay[1], pad_decay[2]
-    q0, q1, q2 = pad_gain[0], pad_gain[1], pad_gain[2]
-    b0, b1, b2 = boot_decay[0], boot_decay[1], boot_decay[2]
-    c0, c1, c2 = boot_gain[0], boot_gain[1], boot_gain[2]
+    dt, k1, k4, k6 = spread(time_step), spread(-bending), spread(4.0 * bending), spread(-6.0 * bending)
+    push_rail, push_block = spread(-per_element), spread(per_block)
+    pad_k, boot_k = spread(pad_stiffness), spread(boot_stiffness)
+    p0, p1, p2 = spread(pad_decay[0]), spread(pad_decay[1]), spread(pad_decay[2])
+    q0, q1, q2 = spread(pad_gain[0]), spread(pad_gain[1]), spread(pad_gain[2])
+    b0, b1, b2 = spread(boot_decay[0]), spread(boot_decay[1]), spread(boot_decay[2])
+    c0, c1, c2 = spread(boot_gain[0]), spread(boot_gain[1]), spread(boot_gain[2])
+    extra, nothing = first_lane(kick), spread(0.0)
+    behind2, behind1 = load(rail, 0), load(rail, LANES)
+    here, ahead1 = load(rail, 2 * LANES), load(rail, 3 * LANES)
+    place = 0
     for bay in range(bays):
-        here = supports[bay]
-        above = rail_rows[bay * step + 2]
-        velocity = velocity_rows[bay * step]
-        force = row[bay * LANES : (bay + 1) * LANES]
-        for lane in range(LANES):
-            block = here[lane]
+        support = bay * QUANTITIES * LANES
+        if two_stage:
+            block = load(supports, support)
             pad = viscoelastic_force(
-                here, 2 * LANES + lane, above[lane] - block, pad_stiffness, p0, p1, p2, q0, q1, q2
+                supports, support + 2 * LANES, here - block, pad_k, p0, p1, p2, q0, q1, q2
             )
-            boot = viscoelastic_force(here, 5 * LANES + lane, block, boot_stiffness, b0, b1, b2, c0, c1, c2)
-            force[lane] = boot
-            velocity[lane] -= per_element * pad
-            block_velocity = here[LANES + lane] + per_block * (pad - boot)
-            here[LANES + lane] = block_velocity
-            here[lane] = block + time_step * block_velocity
+            force = viscoelastic_force(supports, support + 5 * LANES, block, boot_k, b0, b1, b2, c0, c1, c2)
+            block_velocity = load(supports, support + LANES) + push_block * (pad - force)
+            store(supports, support + LANES, block_velocity)
+            store(supports, support, block + dt * block_velocity)
+        else:
+            pad = viscoelastic_force(supports, support + 2 * LANES, here, pad_k, p0, p1, p2, q0, q1, q2)
+            force = pad
+        store(forces, force_place + bay * LANES, force)
+        extra = extra + push_rail * pad
+        for _ in range(per_bay):
+            ahead2 = load(rail, place + 4 * LANES)
+            velocity = load(rail_velocity, place) + extra + k1 * (behind2 + ahead2)
+            velocity = velocity + k4 * (behind1 + ahead1) + k6 * here
+            store(rail_velocity, place, velocity)
+            store(rail, place + 2 * LANES, here + dt * velocity)
+            behind2, behind1, here, ahead1 = behind1, here, ahead1, ahead2
+            extra = nothing
+            place += LANES
 
 
-@njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def step_single_stage(
-    rail_rows: RealArray,
-    velocity_rows: RealArray,
-    supports: RealArray,
-    row: RealArray,
-    time_step: float,
-    element_mass: float,
-    pad_stiffness: float,
-    pad_decay: RealArray,
-    pad_gain: RealArray,
-) -> None:
-    """Let pads push rail and ground.
+# Not cached itself, only within those that call it: a signature of vectors, read back by another version
+# of their type, would end in an error.
+@njit(nogil=True, fastmath={"contract"})
+def viscoelastic_force(
+    memory: RealArray,
+    place: int,
+    strain: Vector,
+    stiffness: Vector,
+    keep0: Vector,
+    keep1: Vector,
+    keep2: Vector,
+    gain0: Vector,
+    gain1: Vector,
+    gain2: Vector,
+) -> Vector:
+    """Return the force of springs with three memory terms [N], and let the terms take up their strain.
 
     Parameters
     ----------
-    rail_rows, velocity_rows : numpy.ndarray (elements + 4, LANES) and (elements, LANES)
-        Displacements [m], ghosts included, and velocities [m/s] of the rail; the velocities are changed.
-    row : numpy.ndarray
-        Its first columns are filled with the pads' forces [N].
-    supports, time_step, element_mass, pad_stiffness, pad_decay, pad_gain
-        As in :func:`advance`.
+    memory : numpy.ndarray
+        Supports as one row; the terms stand :data:`LANES` places apart from ``place`` on; changed [m].
+    place : int
+        First term.
+    strain : Vector
+        e [m].
+    stiffness, keep0, keep1, keep2, gain0, gain1, gain2 : Vector
+        k_now [N/m], decays [-] and gains [N/m].
     """
-    bays = supports.shape[0]
-    step = velocity_rows.shape[0] // bays
-    per_element = time_step / element_mass
-    p0, p1, p2 = pad_decay[0], pad_decay[1], pad_decay[2]
-    q0, q1, q2 = pad_gain[0], pad_gain[1], pad_gain[2]
-    for bay in range(bays):
-        here = supports[bay]
-        above = rail_rows[bay * step + 2]
-        velocity = velocity_rows[bay * step]
-        force = row[bay * LANES : (bay + 1) * LANES]
-        for lane in range(LANES):
-            pad = viscoelastic_force(
-                here, 2 * LANES + lane, above[lane], pad_stiffness, p0, p1, p2, q0, q1, q2
-            )
-            force[lane] = pad
-            velocity[lane] -= per_element * pad
+    term0, term1, term2 = load(memory, place), load(memory, place + LANES), load(memory, place + 2 * LANES)
+    store(memory, place, keep0 * term0 + strain)
+    store(memory, place + LANES, keep1 * term1 + strain)
+    store(memory, place + 2 * LANES, keep2 * term2 + strain)
+    return stiffness * strain - gain0 * term0 - gain1 * term1 - gain2 * term2
 
 
-@njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def step_rail(
-    rail: RealArray,
-    rail_velocity: RealArray,
-    bending: float,
-    time_step: float,
-) -> None:
-    """Let the rail straighten itself, and move it.
-
-    Parameters
-    ----------
-    rail, rail_velocity, bending, time_step
-        As in :func:`advance`.
-    """
-    for place in range(rail_velocity.size):
-        rail_velocity[place] -= bending * (
-            rail[place]
-            + rail[place + 4 * LANES]
-            - 4.0 * (rail[place + LANES] + rail[place + 3 * LANES])
-            + 6.0 * rail[place + 2 * LANES]
-        )
-    for place in range(rail_velocity.size):
-        rail[place + 2 * LANES] += time_step * rail_velocity[place]
-
-
-@njit(nogil=True, cache=True, fastmath={"contract"}, inline="always")
-def apply_fir(
-    window: RealArray,
-    newest: int,
+@njit(nogil=True, cache=True, fastmath={"contract"})
+def sum_up(
+    rows: RealArray,
+    columns: int,
+    factor: int,
+    sums: int,
     taps: RealArray,
-    kept: RealArray,
 ) -> None:
-    """Sum the rows of a window, each times its coefficient of a filter.
+    """Let the rows that came since a row was last kept enter the sums of which they are parts.
+
+    A row of a record that is filtered, then thinned out, is a sum over ``sums`` groups of ``factor``
+    rows. Each group enters all the sums that it is part of at once, so that it need not be kept.
 
     Parameters
     ----------
-    window : numpy.ndarray (taps, columns)
-        Rows; row n of all that there were lies at n modulo their number.
-    newest : int
-        Number of the newest.
-    taps : numpy.ndarray (taps,)
-        Coefficients, newest first [-]; a multiple of four of them.
-    kept : numpy.ndarray (columns,)
-        Filled.
+    rows : numpy.ndarray
+        The window of :func:`advance` as one row. The first sum is complete afterwards.
+    columns, factor, sums : int
+        Columns of the window, rows of a group, groups.
+    taps : numpy.ndarray
+        As in :func:`advance`.
     """
-    rows = window.shape[0]
-    kept[:] = 0.0
-    for tap in range(0, taps.size, 4):
-        row0, row1 = window[(newest - tap) % rows], window[(newest - tap - 1) % rows]
-        row2, row3 = window[(newest - tap - 2) % rows], window[(newest - tap - 3) % rows]
-        h0, h1, h2, h3 = taps[tap], taps[tap + 1], taps[tap + 2], taps[tap + 3]
-        for column in range(kept.size):
-            kept[column] += (h0 * row0[column] + h1 * row1[column]) + (h2 * row2[column] + h3 * row3[column])
+    for group in range(sums):
+        to = (factor + group) * columns
+        newest = group * factor + factor - 1
+        fours = factor - factor % 4
+        for column in range(0, columns, WIDTH):
+            store(rows, to + column, load(rows, to + columns + column))
+        for step in range(0, fours, 4):
+            place = step * columns
+            h0, h1 = spread(taps[newest - step]), spread(taps[newest - step - 1])
+            h2, h3 = spread(taps[newest - step - 2]), spread(taps[newest - step - 3])
+            for column in range(place, place + columns, WIDTH):
+                pair = h0 * load(rows, column) + h1 * load(rows, column + columns)
+                other = h2 * load(rows, column + 2 * columns) + h3 * load(rows, column + 3 * columns)
+                total = to + column - place
+                store(rows, total, load(rows, total) + pair + other)
+        for step in range(fours, factor):
+            place = step * columns
+            h0 = spread(taps[newest - step])
+            for column in range(place, place + columns, WIDTH):
+                total = to + column - place
+                store(rows, total, load(rows, total) + h0 * load(rows, column))
 
 
 @njit(nogil=True, cache=True, fastmath={"contract"})

@@ -4,11 +4,11 @@ The half ring is cut into :data:`trackig_core.time_domain.kernels.LANES` stretch
 side by side: element e of stretch l has place e LANES + l. Neighbours along the rail are one row of lanes
 apart, and loops over places run over whole, aligned vectors:
 
-    row    lane 0      lane 1      ...   lane 15
-     0     element 0   element E   ...   element 15 E        S, W under lane 0
-     1     element 1   element E+1 ...   element 15 E + 1
+    row    lane 0      lane 1      ...   lane 7
+     0     element 0   element E   ...   element 7 E         S, W under lane 0
+     1     element 1   element E+1 ...   element 7 E + 1
      :
-    E-1    element E-1 element 2E-1 ...  element 16 E - 1
+    E-1    element E-1 element 2E-1 ...  element 8 E - 1
 
 The last bays of the last stretches may lie beyond the middle of the ring; they move as the mirror images
 that they are, and are left out of results. (Henretty et al., 2011, "Data layout transformation for
@@ -19,7 +19,7 @@ import numpy as np
 
 from trackig_core.arrays import IntArray, RealArray
 from trackig_core.time_domain.grid import Grid
-from trackig_core.time_domain.kernels import LANES
+from trackig_core.time_domain.kernels import LANES, QUANTITIES
 
 ALIGNMENT = 64
 """Bytes on which rows begin: a cache line, and a vector of eight doubles."""
@@ -29,9 +29,6 @@ COLUMNS = 8
 
 GHOSTS = 2
 """Rows of elements beyond either end of a stretch."""
-
-QUANTITIES = 8
-"""Rows of lanes per row of supports: block, its velocity, three memory terms of pad and of boot."""
 
 
 class Layout:
@@ -58,6 +55,8 @@ class Layout:
         self.bays = -(-grid.half_bays // LANES)
         self.elements = self.bays * grid.elements_per_bay
         self.slots = self.bays * LANES
+        stretch, row = np.divmod(np.arange(grid.half_bays), self.bays)
+        self._order = row * LANES + stretch
 
     def rail_place(self, element: int) -> int:
         """Return where an element lies in the rail's displacements, ghosts included.
@@ -98,8 +97,7 @@ class Layout:
         ordered : numpy.ndarray (rows, half_bays + probes)
             Filled.
         """
-        forces = rows[:, : self.slots].reshape(-1, self.bays, LANES).swapaxes(1, 2).reshape(-1, self.slots)
-        ordered[:, : self._half_bays] = forces[:, : self._half_bays]
+        ordered[:, : self._half_bays] = rows[:, self._order]
         ordered[:, self._half_bays :] = rows[:, self.slots : self.slots + ordered.shape[1] - self._half_bays]
 
 

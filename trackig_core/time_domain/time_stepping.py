@@ -19,8 +19,8 @@ from trackig_core.results import SolveCancelled, TimeHistory
 from trackig_core.time_domain import kernels, vehicle_kernels, vehicle_layout
 from trackig_core.time_domain.decimation import NO_COMB, RECORD_RATE, low_pass
 from trackig_core.time_domain.grid import LONGEST_RECORD, Grid
-from trackig_core.time_domain.kernels import LANES
-from trackig_core.time_domain.memory_layout import GHOSTS, QUANTITIES, Layout, aligned_zeros
+from trackig_core.time_domain.kernels import LANES, QUANTITIES
+from trackig_core.time_domain.memory_layout import GHOSTS, Layout, aligned_zeros
 from trackig_core.time_domain.vehicle_layout import VehicleLayout
 from trackig_core.track.design import DEFAULT_STEP
 from trackig_core.track.viscoelastic_law import Relaxation
@@ -74,12 +74,17 @@ class Decay:
             The latest part of the record [N].
         """
         window = max(1, round(DECAY_WINDOW * RECORD_RATE))
-        self._peak = max(self._peak, float(np.abs(forces).max()))
-        return bool(np.abs(forces[-window:]).max() <= self._amplitude * self._peak)
+        self._peak = max(self._peak, _largest(forces))
+        return _largest(forces[-window:]) <= self._amplitude * self._peak
 
     def more(self, steps_done: int) -> int:
         """Return how many steps a record that may not end is made longer by."""
         return steps_done
+
+
+def _largest(forces: RealArray) -> float:
+    """Return the largest magnitude, without an array of all magnitudes."""
+    return max(float(forces.max()), -float(forces.min()))
 
 
 def simulate(
@@ -259,12 +264,13 @@ def at_rest(
     """
     model, layout = track_model(design), Layout(grid)
     track, rail = model.design, model.design.rail
+    sums = -(-np.trim_zeros(comb, "b").size // comb_factor)
     state = State(
         rail=aligned_zeros((layout.elements + 2 * GHOSTS) * LANES),
         rail_velocity=aligned_zeros(layout.elements * LANES),
         supports=aligned_zeros(layout.bays, QUANTITIES * LANES),
         wheel=np.array([step, 0.0]),
-        window=aligned_zeros(comb.size, layout.columns(probes.count)),
+        window=aligned_zeros(comb_factor + sums + 1, layout.columns(probes.count)),
     )
     constants = Constants(
         layout.mirrors(),
@@ -414,9 +420,9 @@ class Run:
         """Step on, and fill the next samples."""
         count, tail = len(samples), self.filter.taps.size - 1
         rows = self._rows[: tail + count * self.filter.factor]
-        arguments = (*self._state, *self._constants, self.steps_done, rows[tail:])
+        arguments = (*self._state, *self._constants, rows[tail:])
         self._advance(*arguments)
         self.steps_done += count * self.filter.steps_per_sample
         kernels.decimate(rows, self.filter.taps, self.filter.factor, self._kept[:count])
-        self._rows[:tail] = rows[-tail:].copy()
+        self._rows[:tail] = rows[-tail:]
         self._layout.put_in_order(self._kept[:count], samples)

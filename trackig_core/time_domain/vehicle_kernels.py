@@ -39,6 +39,7 @@ def advance(
     window: RealArray,
     over: RealArray,
     pushed: RealArray,
+    clock: IntArray,
     mirrors: IntArray,
     wheel_places: IntArray,
     onsets: RealArray,
@@ -60,7 +61,6 @@ def advance(
     two_stage: bool,
     taps: RealArray,
     factor: int,
-    first: int,
     record: RealArray,
 ) -> None:
     """Step the ring, or half of it, through time, and keep a low-passed row of what happens every few steps.
@@ -80,6 +80,8 @@ def advance(
         Last rows of the record at full rate; changed.
     over, pushed : numpy.ndarray (groups * LANES,)
         Workspace: rail displacements over the supports [m], forces of the supports on the rail [N].
+    clock : numpy.ndarray of int (1,)
+        Time steps taken; changed.
     mirrors : numpy.ndarray of int (4,)
         Places in ``rail`` from which the ghosts take their displacements.
     wheel_places : numpy.ndarray of int (wheels,)
@@ -114,15 +116,13 @@ def advance(
         Filter before the record is thinned out, newest row first [-].
     factor : int
         Time steps per row of the record.
-    first : int
-        Time steps taken before this call.
     record : numpy.ndarray (rows, columns)
         Filled: force that each support passes into the ground [N]; displacement of the wheels against rail
         without roughness, of the rail's and of the blocks' probes [m].
     """
     per_bay = rail_velocity.size // bays
     per_element = time_step / element_mass
-    count = first
+    count = clock[0]
     for kept in range(record.shape[0]):
         for _ in range(factor):
             row = window[count % window.shape[0]]
@@ -156,6 +156,7 @@ def advance(
             step_rail(rail, rail_velocity, bending, time_step)
             count += 1
         weigh_rows(window, count - 1, taps, record[kept])
+    clock[0] = count
 
 
 @njit(nogil=True, cache=True, inline="always")

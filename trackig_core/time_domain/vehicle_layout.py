@@ -87,6 +87,7 @@ class State(NamedTuple):
     window: RealArray
     over: RealArray
     pushed: RealArray
+    clock: IntArray
 
 
 class Constants(NamedTuple):
@@ -163,6 +164,7 @@ def at_rest(
         window=aligned_zeros(comb.size, layout.columns(probes.count)),
         over=aligned_zeros(layout.groups * LANES),
         pushed=aligned_zeros(layout.groups * LANES),
+        clock=np.zeros(1, dtype=np.int64),
     )
     keep, spring, push = axle_matrices(track, grid.dt)
     pad, boot = (recursion_row(law, grid.dt, memory_order) for law in (model.pad, model.boot))

@@ -4,8 +4,10 @@ Loss factors have no unit; strengths are for a stiffness of 1 N/m at 50 Hz; time
 :mod:`trackig_core.track.make_damping_table`.
 
 The best three terms depend on the loss factor without jumps, down to zero, where strength over loss factor
-has a limit. The logarithms of both, at Chebyshev nodes from zero to one, are therefore interpolated by one
-polynomial. It differs from a fit by some 1e-7, as much as a fit from the true optimum.
+has a limit. The logarithms of both, at Chebyshev nodes from zero to one and from one to two, are therefore
+interpolated by one polynomial each. They differ from a fit by some 1e-7, as much as a fit from the true
+optimum. Above a loss factor of two the third term reaches the shortest relaxation time allowed, and three
+terms no longer hold the error of a few per cent.
 """
 
 from functools import cache
@@ -17,12 +19,16 @@ from numpy.typing import ArrayLike
 
 from trackig_core.arrays import RealArray
 
-LARGEST = 1.0
-"""Loss factor at which the table ends [-]."""
+TABLES = (("damping_table.csv", 0.0, 1.0), ("damping_table_above_one.csv", 1.0, 2.0))
+"""File of each table, and the loss factors from which to which it reaches [-]."""
 
-NODES = LARGEST * (1 + np.cos(np.pi * (np.arange(16) + 0.5) / 16)) / 2
-"""Loss factors of the table (16,) [-]: the Chebyshev nodes from zero to :data:`LARGEST`."""
-NODES.flags.writeable = False
+LARGEST = TABLES[-1][2]
+"""Loss factor at which the tables end [-]."""
+
+
+def nodes(low: float, high: float) -> RealArray:
+    """Return the Chebyshev nodes between two loss factors, descending (16,) [-]."""
+    return low + (high - low) * (1 + np.cos(np.pi * (np.arange(16) + 0.5) / 16)) / 2
 
 
 def interpolated_terms(loss_factor: ArrayLike) -> tuple[RealArray, RealArray, RealArray]:
@@ -43,16 +49,26 @@ def interpolated_terms(loss_factor: ArrayLike) -> tuple[RealArray, RealArray, Re
         Largest relative error of the loss factor, 5-500 Hz [-].
     """
     loss_factor = np.asarray(loss_factor, dtype=float)
-    coefficients = _coefficients()
-    # Chebyshev polynomials T_n(x) = cos(n arccos x), x from -1 to 1 along the table
-    angle = np.arccos(2 * loss_factor / LARGEST - 1)
-    values = np.exp(np.cos(angle[..., None] * np.arange(len(coefficients))) @ coefficients)
+    values = _interpolated(loss_factor, *TABLES[0])
+    for table in TABLES[1:]:
+        above = loss_factor > table[1]
+        if above.any():
+            values = np.where(above[..., None], _interpolated(loss_factor, *table), values)
     return loss_factor[..., None] * values[..., :3], values[..., 3:6], values[..., 6]
 
 
+def _interpolated(loss_factor: RealArray, file: str, low: float, high: float) -> RealArray:
+    """Return all columns of a table (..., 7), at its nearest end for loss factors beyond it."""
+    # Chebyshev polynomials T_n(x) = cos(n arccos x), x from -1 to 1 along the table
+    angle = np.arccos(np.clip(2 * (loss_factor - low) / (high - low) - 1, -1, 1))
+    coefficients = _coefficients(file, low, high)
+    return np.exp(np.cos(angle[..., None] * np.arange(len(coefficients))) @ coefficients)
+
+
 @cache
-def _coefficients() -> RealArray:
+def _coefficients(file: str, low: float, high: float) -> RealArray:
     """Return the coefficients of the Chebyshev polynomials (16, 7), of the logarithms of all columns [-]."""
-    with (files("trackig_core.track") / "data" / "damping_table.csv").open() as lines:
+    with (files("trackig_core.track") / "data" / file).open() as lines:
         table = np.loadtxt(lines, delimiter=",", skiprows=1)
-    return np.asarray(chebyshev.chebfit(2 * table[:, 0] / LARGEST - 1, np.log(table[:, 1:]), len(table) - 1))
+    along = 2 * (table[:, 0] - low) / (high - low) - 1
+    return np.asarray(chebyshev.chebfit(along, np.log(table[:, 1:]), len(table) - 1))

@@ -1,8 +1,9 @@
 """A track as its designer names it: one rail, one wheel, and a row of supports.
 
 SI units: N/m, kg, m, N m2; loss factors have no unit. Stiffnesses are dynamic stiffnesses at
-50 Hz. Source of the model: Thornely-Taylor, Bewes and Sica (2021), "A simplified model for
-calculating the insertion gain of track support systems using the finite difference method".
+50 Hz unless the design states another frequency. Source of the model: Thornely-Taylor, Bewes and Sica
+(2021), "A simplified model for calculating the insertion gain of track support systems using the finite
+difference method".
 
 A design that exists is valid: every value is checked when the object is made, the objects never change, and
 equal designs are equal keys.
@@ -25,7 +26,8 @@ from trackig_core.track.rails import Rail as Rail
 from trackig_core.track.vehicle import Suspension as Suspension
 
 REFERENCE_FREQUENCY = 50.0
-"""Frequency at which a pad's or boot's dynamic stiffness is stated [Hz]; the paper, section on damping."""
+"""Frequency at which a pad's or boot's dynamic stiffness is stated unless the design says otherwise [Hz]; the
+paper, section on damping."""
 
 ONE_AXLE = (0.0,)
 """Positions of the axles [m] of which there is but one, over support 0."""
@@ -87,6 +89,12 @@ def axle_elements(positions: Iterable[float], spacing: float) -> tuple[int, ...]
     return tuple(round(each * ELEMENTS_PER_BAY / spacing) for each in positions)
 
 
+def measured_curves(design: "TrackDesign") -> dict[str, StiffnessCurve | LossFactorCurve]:
+    """Return what a design has as measured over frequency (dict of curves), by field."""
+    values = {each.name: getattr(design, each.name) for each in dataclasses.fields(design)}
+    return {name: each for name, each in values.items() if isinstance(each, StiffnessCurve | LossFactorCurve)}
+
+
 @dataclass(frozen=True, kw_only=True)
 class TrackDesign:
     """Wheels on one rail on a row of equal supports: by default one wheel, and rigid ground.
@@ -97,14 +105,14 @@ class TrackDesign:
     Parameters
     ----------
     pad_stiffness : float or StiffnessCurve
-        Dynamic stiffness of a rail pad at 50 Hz [N/m], or as measured over frequency.
+        Dynamic stiffness of a rail pad at the stiffness frequency [N/m], or as measured over frequency.
     pad_loss_factor : float or LossFactorCurve or None
         Loss factor of the rail pad [-], or as measured over frequency; None with a StiffnessCurve, which
         has its own.
     block_mass : float or None
         Mass of a block or sleeper end [kg].
     boot_stiffness : float or StiffnessCurve or None
-        Dynamic stiffness of a boot at 50 Hz [N/m], or as measured over frequency.
+        Dynamic stiffness of a boot at the stiffness frequency [N/m], or as measured over frequency.
     boot_loss_factor : float or LossFactorCurve or None
         Loss factor of the boot, as for the pad.
     fastener_spacing : float
@@ -115,6 +123,12 @@ class TrackDesign:
         Rail section; the name of one of ``RAILS`` stands for it.
     contact_stiffness : float
         Linearised Hertzian contact stiffness [N/m].
+    pad_static_stiffness, boot_static_stiffness : float or None
+        Static stiffness of a rail pad and of a boot [N/m]; None if it is not stated. Nothing but statics
+        depends on them.
+    stiffness_frequency : float
+        Frequency at which the dynamic stiffnesses hold that are numbers [Hz]: 50 Hz in the paper, 10 Hz or
+        20 Hz in many test reports (DIN 45673-5).
     suspension : Suspension or None
         What every wheel carries; None: nothing but its unsprung mass.
     axle_positions : iterable of float
@@ -140,6 +154,9 @@ class TrackDesign:
     wheel_mass: float
     rail: Rail = PAPER_RAIL
     contact_stiffness: float = 1.2e9
+    pad_static_stiffness: float | None = None
+    boot_static_stiffness: float | None = None
+    stiffness_frequency: float = REFERENCE_FREQUENCY
     suspension: Suspension | None = None
     axle_positions: tuple[float, ...] = ONE_AXLE
     speed: float | None = None
@@ -152,12 +169,17 @@ class TrackDesign:
             object.__setattr__(self, "rail", RAILS[self.rail])
         if not isinstance(self.rail, Rail):
             raise DesignError("rail", self.rail, f"a Rail, or the name of one: {', '.join(RAILS)}")
-        for field in ("fastener_spacing", "wheel_mass", "contact_stiffness"):
+        for field in ("fastener_spacing", "wheel_mass", "contact_stiffness", "stiffness_frequency"):
             self._check(field)
         self._check_spring("pad")
         if self.two_stage:
             self._check("block_mass")
             self._check_spring("boot")
+        elif self.boot_static_stiffness is not None:
+            raise DesignError("boot_static_stiffness", self.boot_static_stiffness, "None: there is no boot")
+        for field in ("pad_static_stiffness", "boot_static_stiffness"):
+            if getattr(self, field) is not None:
+                self._check(field)
         self._check_surroundings()
 
     def _check(self, field: str) -> None:
@@ -228,7 +250,7 @@ class TrackDesign:
         Parameters
         ----------
         **changes
-            New values by field name [unit of the field].
+            New values by field name [unit of the field]. A static stiffness leaves with its boot.
 
         Returns
         -------
@@ -246,4 +268,6 @@ class TrackDesign:
                 near = difflib.get_close_matches(field, names, n=1)
                 hint = f"'{near[0]}'" if near else f"one of {', '.join(names)}"
                 raise DesignError(field, value, f"a field that exists: {hint}")
+        if changes.get("boot_stiffness", self.boot_stiffness) is None:
+            changes.setdefault("boot_static_stiffness", None)
         return dataclasses.replace(self, **changes)

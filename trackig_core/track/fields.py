@@ -42,15 +42,27 @@ RAIL_FIELDS = (
 
 DESIGN_FIELDS = (
     Field("pad_stiffness", "N/m", 1e5, 1e13, "pad_stiffness_N_per_m"),
-    Field("pad_loss_factor", "", 0.0, 1.0, "pad_loss_factor"),
+    Field("pad_loss_factor", "", 0.0, 2.0, "pad_loss_factor"),
     Field("block_mass", "kg", 1.0, 1e4, "block_mass_kg"),
     Field("boot_stiffness", "N/m", 1e5, 1e13, "boot_stiffness_N_per_m"),
-    Field("boot_loss_factor", "", 0.0, 1.0, "boot_loss_factor"),
+    Field("boot_loss_factor", "", 0.0, 2.0, "boot_loss_factor"),
     Field("fastener_spacing", "m", 0.1, 2.0, "fastener_spacing_m"),
     Field("wheel_mass", "kg", 10.0, 1e4, "wheel_mass_kg"),
     Field("contact_stiffness", "N/m", 1e6, 1e15, "contact_stiffness_N_per_m"),
+    Field("pad_static_stiffness", "N/m", 1e5, 1e13, "pad_static_stiffness_N_per_m"),
+    Field("boot_static_stiffness", "N/m", 1e5, 1e13, "boot_static_stiffness_N_per_m"),
+    Field("stiffness_frequency", "Hz", 1.0, 1000.0, "stiffness_frequency_Hz"),
 )
 """Numbers of a design."""
+
+STATIC_FIELDS = (
+    Field("wheel_load", "N", 1e3, 1e6, "wheel_load_N"),
+    Field("rail_deflection_limit", "m", 1e-6, 0.1, "rail_deflection_max_m"),
+)
+"""Numbers of a standing wheel, and of what it may sink."""
+
+DEFAULT_WHEEL_LOAD = 85e3
+"""Static load of a wheel where none is given [N]: half an axle load of 17 t."""
 
 SUSPENSION_FIELDS = (
     Field("primary_stiffness", "N/m", 1e3, 1e9, "primary_stiffness_N_per_m"),
@@ -87,6 +99,7 @@ RANGES = {
     for each in (
         *RAIL_FIELDS,
         *DESIGN_FIELDS,
+        *STATIC_FIELDS,
         *SUSPENSION_FIELDS,
         *GROUND_FIELDS,
         *AXLE_FIELDS,
@@ -94,6 +107,22 @@ RANGES = {
     )
 }
 """Lowest and highest value, and unit, of each number by name."""
+
+SLIDER_RANGES = {
+    "pad_stiffness": (10e6, 2000e6),
+    "pad_loss_factor": (0.01, 0.5),
+    "block_mass": (10.0, 500.0),
+    "boot_stiffness": (2e6, 200e6),
+    "boot_loss_factor": (0.01, 0.5),
+    "fastener_spacing": (0.2, 1.0),
+    "wheel_mass": (200.0, 1500.0),
+    "contact_stiffness": (200e6, 5000e6),
+}
+"""Lowest and highest value of each number that a designer chooses from [SI]: what sliders offer, and what is
+searched unless other ranges are given."""
+
+SCATTERED = (*SLIDER_RANGES, "pad_static_stiffness", "boot_static_stiffness")
+"""Numbers of a design that production scatters and that may be changed by a share of themselves."""
 
 
 class DesignError(ValueError):

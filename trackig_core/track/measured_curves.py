@@ -4,7 +4,7 @@ Hz, N/m; loss factors have no unit. Between points, values are straight lines ov
 frequency; beyond the first and last point they stay as they are there.
 
 A table that exists is sound. Every row is checked when the table is made, and an error
-names the row.
+names the row. Tables that were pasted or saved are read by :mod:`trackig_core.track.measured_tables`.
 """
 
 import math
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from trackig_core.arrays import BoolArray, RealArray
+from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 from trackig_core.names import brief
 
 MOST_POINTS = 1000
@@ -24,9 +25,13 @@ MOST_POINTS = 1000
 COLUMNS = {
     "frequency": (0.1, 1e5, "Hz"),
     "stiffness": (1e5, 1e13, "N/m"),
-    "loss factor": (1e-4, 1.0, ""),
+    "loss factor": (1e-4, 2.0, ""),
 }
 """Lowest and highest value, and unit, of each column."""
+
+
+NOMINAL_DEVIATION = 0.02
+"""Relative distance between nominal and exact mid-band frequencies that is not extrapolation [-]."""
 
 
 class MeasurementError(ValueError):
@@ -40,12 +45,12 @@ class MeasurementError(ValueError):
 
     def __init__(self, message: str, row: int | None = None) -> None:
         self.row = row
-        self._message = message
+        self.message = message
         super().__init__(message if row is None else f"row {row}: {message}")
 
     def __reduce__(self) -> tuple[type, tuple[str, int | None]]:
         """Let the error pass between processes."""
-        return type(self), (self._message, self.row)
+        return type(self), (self.message, self.row)
 
 
 @dataclass(frozen=True)
@@ -72,6 +77,11 @@ class LossFactorCurve:
     def loss_factor(self, frequency: ArrayLike) -> RealArray:
         """Return the loss factor at given frequencies [Hz]; same shape, [-]."""
         return _interpolated(frequency, self.points, 1)
+
+    @property
+    def extrapolated_bands(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text, of bands beyond the first and the last point [Hz]."""
+        return _extrapolated(self.points)
 
 
 @dataclass(frozen=True)
@@ -104,10 +114,22 @@ class StiffnessCurve:
         """Return the loss factor at given frequencies [Hz]; same shape, [-]."""
         return _interpolated(frequency, self.points, 2)
 
+    @property
+    def extrapolated_bands(self) -> tuple[str, ...]:
+        """Nominal mid-band frequencies, as text, of bands beyond the first and the last point [Hz]."""
+        return _extrapolated(self.points)
+
     def covers(self, frequency: ArrayLike) -> BoolArray:
         """Return whether given frequencies [Hz] lie between the first and the last point; same shape."""
         frequency = np.asarray(frequency)
         return (frequency >= self.points[0][0]) & (frequency <= self.points[-1][0])
+
+
+def _extrapolated(points: Sequence[Sequence[float]]) -> tuple[str, ...]:
+    first, last = points[0][0], points[-1][0]
+    low, high = first / (1 + NOMINAL_DEVIATION), last * (1 + NOMINAL_DEVIATION)
+    pairs = zip(BAND_LABELS, BAND_CENTRES, strict=True)
+    return tuple(label for label, centre in pairs if not low <= centre <= high)
 
 
 def _interpolated(frequency: ArrayLike, points: Sequence[Sequence[float]], column: int) -> RealArray:

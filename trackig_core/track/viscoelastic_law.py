@@ -8,8 +8,8 @@ so its dynamic stiffness is K(w) = k_inf - sum_j k_j / (1 + i w tau_j), three te
 factor Im K / Re K. Such a material is causal, so it stiffens with frequency as much as its damping
 demands. N/m, s, Hz. Source: the paper (see :mod:`trackig_core.track.design`), damping section.
 
-Re K at 50 Hz is exactly the dynamic stiffness that the designer stated; a table of measured
-stiffness is met as well as three terms can.
+Re K at the frequency that the design names, 50 Hz unless it says otherwise, is exactly the dynamic stiffness
+that the designer stated; a table of measured stiffness is met as well as three terms can.
 """
 
 import math
@@ -69,6 +69,16 @@ class Relaxation:
     strengths: tuple[float, ...]
     times: tuple[float, ...]
     worst_error: float
+
+    @property
+    def lossless(self) -> bool:
+        """Whether the spring loses no energy."""
+        return not self.strengths
+
+    @property
+    def causal(self) -> bool:
+        """Whether the spring answers only after it is pushed, so that it can be stepped in time."""
+        return True
 
     def dynamic_stiffness(self, frequency: ArrayLike) -> ComplexArray:
         """Return the complex dynamic stiffness K(f), time dependence exp(+i w t).
@@ -145,16 +155,22 @@ def _relaxed(
     )
 
 
-def relaxation(stiffness: float | StiffnessCurve, loss_factor: float | LossFactorCurve | None) -> Relaxation:
+def relaxation(
+    stiffness: float | StiffnessCurve,
+    loss_factor: float | LossFactorCurve | None,
+    frequency: float = REFERENCE_FREQUENCY,
+) -> Relaxation:
     """Return the relaxation law of a pad or boot.
 
     Parameters
     ----------
     stiffness : float or StiffnessCurve
-        Dynamic stiffness at 50 Hz [N/m], or as measured over frequency.
+        Dynamic stiffness at the given frequency [N/m], or as measured over frequency.
     loss_factor : float or LossFactorCurve or None
         Loss factor wanted from 5 to 500 Hz [-]; zero gives a spring without memory. None with a
         StiffnessCurve.
+    frequency : float
+        Frequency at which a stiffness holds that is a number [Hz].
 
     Returns
     -------
@@ -164,7 +180,8 @@ def relaxation(stiffness: float | StiffnessCurve, loss_factor: float | LossFacto
     if isinstance(stiffness, StiffnessCurve):
         return _fit_stiffness(stiffness)
     measured = isinstance(loss_factor, LossFactorCurve)
-    return _scaled(fit_loss_factor(loss_factor) if measured else constant_loss_factor(loss_factor), stiffness)
+    law = fit_loss_factor(loss_factor) if measured else constant_loss_factor(loss_factor)
+    return _scaled(law, stiffness, frequency)
 
 
 def laws(design: TrackDesign) -> tuple[Relaxation, Relaxation | None]:
@@ -182,10 +199,11 @@ def laws(design: TrackDesign) -> tuple[Relaxation, Relaxation | None]:
     boot : Relaxation or None
         Law of the boots; None when single-stage.
     """
-    pad = relaxation(design.pad_stiffness, design.pad_loss_factor)
+    frequency = design.stiffness_frequency
+    pad = relaxation(design.pad_stiffness, design.pad_loss_factor, frequency)
     if design.boot_stiffness is None:
         return pad, None
-    return pad, relaxation(design.boot_stiffness, design.boot_loss_factor)
+    return pad, relaxation(design.boot_stiffness, design.boot_loss_factor, frequency)
 
 
 @lru_cache(maxsize=256)
@@ -195,7 +213,7 @@ def constant_loss_factor(loss_factor: float) -> Relaxation:
     Parameters
     ----------
     loss_factor : float
-        Loss factor from 5 to 500 Hz [-], from zero to one.
+        Loss factor from 5 to 500 Hz [-], from zero to two.
 
     Returns
     -------
@@ -259,9 +277,9 @@ def _fit_stiffness(curve: StiffnessCurve) -> Relaxation:
     return _scaled(law, float(scale * law.stiffness(REFERENCE_FREQUENCY)))
 
 
-def _scaled(law: Relaxation, stiffness: float) -> Relaxation:
-    """Return a law scaled to have a given stiffness at 50 Hz [N/m]."""
-    factor = stiffness / law.stiffness(REFERENCE_FREQUENCY)
+def _scaled(law: Relaxation, stiffness: float, frequency: float = REFERENCE_FREQUENCY) -> Relaxation:
+    """Return a law scaled to have a given stiffness at a frequency [N/m]."""
+    factor = stiffness / law.stiffness(frequency)
     return Relaxation(
         factor * law.instantaneous,
         tuple(factor * strength for strength in law.strengths),

@@ -277,7 +277,7 @@ def test_a_data_frame_has_a_row_per_design():
     pandas = pytest.importorskip("pandas")
     frame = solve_many([BLOCK, SLAB]).to_dataframe()
     assert isinstance(frame, pandas.DataFrame)
-    assert frame.shape == (2, 9 + 2 + 21)
+    assert frame.shape == (2, 12 + 3 + 21)
     assert frame["rail"].tolist() == ["60", "60"]
     assert frame["coupled_block"].isna().tolist() == [False, True]
     assert frame["31.5"][1] == pytest.approx(tig.solve(SLAB, "exact").insertion_gain[8], abs=0.01)

@@ -215,9 +215,20 @@ def test_lattices_that_do_not_exist(choice):
         Lattice(**choice)
 
 
-def test_only_positive_frequencies_have_a_receptance():
-    with pytest.raises(ValueError, match="greater than 0 Hz"):
-        receptance(BLOCK, [0.0, 10.0])
+@pytest.mark.parametrize("wrong", [0.0, -10.0, float("inf"), float("nan")])
+def test_only_positive_frequencies_have_a_receptance(wrong):
+    with pytest.raises(ValueError, match="finite and greater than 0 Hz"):
+        receptance(BLOCK, [wrong, 10.0])
+
+
+@pytest.mark.parametrize("wrong", [0.5, [0, 1.5], float("nan"), True, "1"])
+def test_between_supports_there_is_no_support(wrong):
+    with pytest.raises(ValueError, match="give whole numbers of supports"):
+        receptance(BLOCK, [200.0], support=wrong)
+
+
+def test_a_whole_number_of_any_type_is_a_support():
+    assert receptance(BLOCK, [200.0], support=2.0) == receptance(BLOCK, [200.0], support=2)
 
 
 def test_supports_of_a_ring_are_counted_round():

@@ -67,15 +67,22 @@ def springs(part):
 def designs(draw):
     values = {name: draw(numbers[name]) for name in ("fastener_spacing", "wheel_mass", "contact_stiffness")}
     values |= draw(springs("pad")) | {"rail": draw(rails)}
+    values["pad_static_stiffness"] = draw(st.none() | numbers["pad_static_stiffness"])
     if draw(st.booleans()):
         values |= draw(springs("boot")) | {"block_mass": draw(numbers["block_mass"])}
+        values["boot_static_stiffness"] = draw(st.none() | numbers["boot_static_stiffness"])
     return tig.TrackDesign(**values)
 
 
 def tables(kind):
     bands = st.sampled_from([float(label) for label in tig.BAND_LABELS])
     rows = st.dictionaries(bands, st.floats(-100, 100), min_size=1).map(lambda table: tuple(table.items()))
-    return st.one_of(st.none(), st.builds(kind, rows, names))
+    limits = {name: numbers[name] for name in ("rail_deflection_limit", "wheel_load")}
+    return st.one_of(
+        st.none(),
+        st.builds(kind, rows, names),
+        *([st.builds(kind, rows, names, **limits)] if kind is tig.Specification else []),
+    )
 
 
 presets = st.sampled_from([None, *tig.PRESETS])
@@ -170,6 +177,7 @@ def changed(old, new):
         (changed("version = 1", "version = '1'"), "version: '1': give 1"),
         (changed("version = 1\n", ""), "version: it is missing"),
         (changed("version = 1\n", "version = 1\nauthor = 'x'\n"), "author: there is no such key; known are"),
+        (changed("version = 1\n", "version = 1\nzzz = 'x'\n"), "view, specification, source, pinned, name,"),
         (changed("fastener_spacing_m", "fastener_spacing"), "write 'fastener_spacing_m'"),
         (changed("summation", "sumation"), "view.sumation: there is no such key; write 'summation'"),
         (changed('"coherent"', '"loud"'), "view.summation: 'loud': give 'energy' or 'coherent'"),
@@ -215,10 +223,18 @@ def changed(old, new):
         (changed("colour = 3", "colour = 3.0"), "pinned[0].colour: 3.0"),
         (changed("colour = 3", "color = 3"), "pinned[0].color: there is no such key; write 'colour'"),
         (changed("shown = false", "shown = 0"), "pinned[0].shown: 0: give true or false"),
-        (changed("pad_loss_factor = 0.15", "pad_loss_factor = 1.5"), "pinned[0].design.pad_loss_factor: 1.5"),
+        (changed("pad_loss_factor = 0.15", "pad_loss_factor = 2.5"), "pinned[0].design.pad_loss_factor: 2.5"),
         (changed("[31.5, -3.0]", "[32.9, -3.0]"), "specification.ig_max_dB: row 2, column 1: "),
         (changed("[31.5, -3.0]", "[31.5, nan]"), "specification.ig_max_dB: row 2, column 2: "),
         (changed('name = "Client"', 'name = ""'), "specification: name = ''"),
+        (
+            changed('name = "Client"', 'name = "Client"\nrail_deflection_max_m = 2.5'),
+            "specification: rail_deflection_limit = 2.5: give a number from 1e-06 to 0.1 m",
+        ),
+        (
+            changed('name = "Client"', 'name = "Client"\nwheel_load_N = 85e3'),
+            "specification.wheel_load_N: give rail_deflection_max_m too, or remove it",
+        ),
         (changed("level_dB", "level"), "source.level_dB: it is missing"),
         (changed('name = "Assessment"', "name = 5"), "name: 5: give a name"),
         (changed('name = "Assessment"', 'name = "Assessment'), "this is not TOML: "),

@@ -27,7 +27,7 @@ def step_through(design, grid, steps, advance=kernels.advance, **choices):
     constants = run._constants._replace(comb=np.array([1.0, 0.0, 0.0, 0.0]), comb_factor=1)
     state = run._state._replace(window=np.zeros((4, layout.columns(LOADED_SUPPORT.count))))
     rows = np.empty((steps, state.window.shape[1]))
-    advance(*state, *constants, 0, rows)
+    advance(*state, *constants, rows)
     record = np.empty((steps, layout.width(LOADED_SUPPORT.count)))
     layout.put_in_order(rows, record)
     return state, record

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from trackig_core.track.damping_table import LARGEST, NODES, interpolated_terms
+from trackig_core.track.damping_table import LARGEST, TABLES, interpolated_terms, nodes
 from trackig_core.track.design import RANGES
 from trackig_core.track.make_damping_table import fitted_table
 from trackig_core.track.measured_curves import LossFactorCurve
@@ -14,8 +14,12 @@ from trackig_core.track.viscoelastic_law import (
     relaxation,
 )
 
-BETWEEN = [NEGLIGIBLE, 1e-6, 1e-4, 1e-3, 0.01, *(NODES[1:] + np.diff(-NODES) / 2), 0.05, 0.2, 0.5, 1.0]
-"""Loss factors that are no nodes: the smallest that has memory, halfway between nodes, and round ones."""
+ROUND = [NEGLIGIBLE, 1e-6, 1e-4, 1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.000001, 1.5, 2.0]
+
+BETWEEN = ROUND + [
+    between for _, *ends in TABLES for between in nodes(*ends)[1:] + np.diff(-nodes(*ends)) / 2
+]
+"""Loss factors that are no nodes: the smallest that has memory, round ones, and halfway between nodes."""
 
 
 @pytest.mark.parametrize("loss_factor", BETWEEN)
@@ -37,11 +41,13 @@ def test_terms_are_the_golden_ones(golden, loss_factor):
     assert law.times == pytest.approx(expected["tau_s"], rel=3e-7)
 
 
-def test_the_committed_table_is_what_its_script_makes():
-    strengths, times, worst_error = interpolated_terms(NODES)
-    made = fitted_table()
-    assert made[:, 0] == pytest.approx(NODES)
-    assert strengths / NODES[:, None] == pytest.approx(made[:, 1:4], rel=1e-6)
+@pytest.mark.parametrize(("low", "high"), [table[1:] for table in TABLES])
+def test_the_committed_tables_are_what_their_script_makes(low, high):
+    at = nodes(low, high)
+    strengths, times, worst_error = interpolated_terms(at)
+    made = fitted_table(low, high)
+    assert made[:, 0] == pytest.approx(at)
+    assert strengths / at[:, None] == pytest.approx(made[:, 1:4], rel=1e-6)
     assert times == pytest.approx(made[:, 4:7], rel=1e-6)
     assert worst_error == pytest.approx(made[:, 7], rel=1e-6)
 

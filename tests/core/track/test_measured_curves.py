@@ -30,7 +30,7 @@ NAN = float("nan")
         ([(5, 0.1), (float("inf"), 0.1)], 2, "frequency = inf"),
         ([(5, 0.1), (20, "0,2")], 2, "loss factor = '0,2'"),
         ([(5, 0.1), (20, True)], 2, "loss factor = True"),
-        ([(5, 0.1), (20, 10**400)], 2, "from 0.0001 to 1"),
+        ([(5, 0.1), (20, 10**400)], 2, "from 0.0001 to 2"),
         ([(5, 0.1), (20, 0.1, 7)], 2, "3 values: give frequency, loss factor"),
         ([(5, 0.1), (20, None)], 2, "loss factor = None"),
     ],

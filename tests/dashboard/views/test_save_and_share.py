@@ -73,7 +73,9 @@ def test_a_limit_at_fault_names_its_band_and_changes_nothing(session, view, type
     type_in(view, "63", "-3")
     type_in(view, "80", typed)
     assert limits(session) == {63.0: -3.0}
-    assert "80 Hz: give a number from -100 to 100 dB" in view.editor.message.object
+    assert "Not taken: 80 Hz: " in view.editor.message.object
+    assert "give a number from -100 to 100 dB, or nothing" in view.editor.message.object
+    assert "<img" not in view.editor.message.object
     type_in(view, "80", "-5")
     assert "Hz" not in view.editor.message.object
 
@@ -83,7 +85,7 @@ def test_a_limit_at_fault_names_its_band_and_changes_nothing(session, view, type
     [
         (b"frequency_hz,ig_max_db\n63,-3\n80,high\n", "line 3, column 2"),
         (b"frequency_hz,ig_max_db\n63,-3\n70,-3\n", "line 3, column 1"),
-        (f"frequency_hz,{HOSTILE}\n".encode(), "line 1, column 2"),
+        (f"63,-3\n80,{HOSTILE}\n".encode(), "line 2, column 2"),
         (b"\x89PNG\0", "not a text file"),
         (b"63,-3\n" * 20_000, "larger than 64 kB"),
     ],
@@ -103,6 +105,11 @@ def test_files_tables_and_columns_are_taken(session, view, exchange):
     view.editor.apply.param.trigger("clicks")
     assert limits(session) == {63.0: -3.0, 80.0: -4.5}
     assert view.editor.pasted.value == ""
+    view.editor.pasted.value = "63\t-3\n80\tx"
+    view.editor.apply.param.trigger("clicks")
+    assert "line 2, column 2" in view.editor.answer.object
+    assert "line 2" not in view.editor.message.object
+    assert view.editor.pasted.value == "63\t-3\n80\tx"
     place = tig.BAND_LABELS.index("100")
     view.editor.grid.handle_message({"kind": "pasted", "band": place, "text": "-6\n-7\n"})
     assert limits(session) == {63.0: -3.0, 80.0: -4.5, 100.0: -6.0, 125.0: -7.0}
@@ -110,6 +117,58 @@ def test_files_tables_and_columns_are_taken(session, view, exchange):
     assert "1 at most from 500 Hz on" in view.editor.message.object
     view.editor.clear.param.trigger("clicks")
     assert session.assessment.specification is None
+
+
+@pytest.mark.parametrize("typed", ["-6,5 dB", "\N{EN DASH}6.5", "<= -6,5", "\N{FULLWIDTH HYPHEN-MINUS}6.5"])
+def test_a_limit_is_read_as_in_a_table(session, view, typed):
+    type_in(view, "63", typed)
+    assert limits(session) == {63.0: -6.5}
+
+
+def test_a_pasted_column_takes_out_what_it_leaves_blank(session, view):
+    session.assessment.specification = tig.Specification([(63, -3), (80, -4), (100, -5)])
+    place = tig.BAND_LABELS.index("63")
+    view.editor.grid.handle_message({"kind": "pasted", "band": place, "text": "-6 dB\r\n\r\n-7,5\r\n"})
+    assert limits(session) == {63.0: -6.0, 100.0: -7.5}
+
+
+def test_cells_side_by_side_are_not_read_as_one_number(session, view):
+    view.editor.grid.handle_message({"kind": "pasted", "band": 0, "text": "8\t100\n10\t-6"})
+    assert limits(session) == {8.0: 100.0, 10.0: -6.0}
+
+
+def test_what_is_set_aside_is_said_and_the_rest_taken(session, view, exchange):
+    exchange.openers["specification"](b"63;-3\n630;-4\nnight;-5")
+    assert limits(session) == {63.0: -3.0}
+    message = view.editor.message.object
+    assert 'role="status"' in message
+    assert "outside 5 to 500 Hz: 630 Hz" in message
+    assert "line 3 is not read" in message
+
+
+def test_limits_that_look_like_insertion_loss_are_asked_about(session, view, exchange):
+    session.show("slab-track")
+    turn, keep = view.question[1]
+    assert not view.question.visible
+    exchange.openers["specification"](b"63;10\n80;12")
+    assert view.question.visible
+    assert "answer the question above the table" in view.editor.message.object
+    assert session.assessment.results[0].verdict.complies
+    turn.param.trigger("clicks")
+    assert limits(session) == {63.0: -10.0, 80.0: -12.0}
+    assert not view.question.visible
+    assert not session.assessment.results[0].verdict.complies
+    type_in(view, "63", "10")
+    type_in(view, "80", "12")
+    assert view.question.visible
+    keep.param.trigger("clicks")
+    assert not view.question.visible
+    type_in(view, "80", "13")
+    assert not view.question.visible
+    exchange.openers["specification"]("Hz;Dämmung\n63;10\n80;-1".encode())
+    assert view.question.visible
+    view.editor.clear.param.trigger("clicks")
+    assert not view.question.visible
 
 
 def test_template_and_table_are_saved_as_they_are_read(session, view, exchange):

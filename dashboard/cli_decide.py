@@ -1,0 +1,600 @@
+"""Commands that choose between designs: range, sensitivity, tolerance, map and find.
+
+They ask ``trackig_core.decide`` about the current design of a study, or a pinned one, and print a table and a
+sentence to standard output. SI units. How far they are goes to standard error. Ctrl+C ends them; a search
+then leaves the best so far.
+
+Exit codes are those of :mod:`dashboard.cli`: 1 when nothing complies.
+"""
+
+import argparse
+import csv
+import io
+import json
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import trackig_core as tig
+from trackig_core.solver import FIDELITIES
+from trackig_core.track.fields import SLIDER_RANGES
+
+FAILED, STOPPED = 1, 130
+"""Exit codes: nothing complies; the user pressed Ctrl+C."""
+
+STANDARD_OUTPUT = Path("-")
+"""What stands for standard output where a file is written."""
+
+SAMPLES = 10_000
+"""Samples that are drawn into a folder unless a number is given [-]."""
+
+MOST_BYTES = 10_000_000
+"""Size that a table of specimens or products may have [bytes]."""
+
+
+class DecideError(ValueError):
+    """A question cannot be asked."""
+
+
+@dataclass(frozen=True)
+class Shell:
+    """What the commands need of the command line.
+
+    Attributes
+    ----------
+    add : callable
+        Adds a command: (commands, name, run, help=...).
+    open_study : callable
+        From a path to a study.
+    refuse_to_lose : callable
+        Refuses to write over a file: (path, force, file that is read).
+    write : callable
+        Writes text to a path.
+    """
+
+    add: Callable
+    open_study: Callable
+    refuse_to_lose: Callable
+    write: Callable
+
+
+def add_commands(commands, shell):
+    """Add the commands to those of the command line.
+
+    Parameters
+    ----------
+    commands : argparse._SubParsersAction
+        Where commands are added.
+    shell : Shell
+        What they need of the command line.
+    """
+    _add_range(commands, shell)
+    _add_sensitivity(commands, shell)
+    _add_tolerance(commands, shell)
+    _add_map(commands, shell)
+    _add_find(commands, shell)
+
+
+def _command(commands, shell, name, asked, **words):
+    """Add a command that asks what ``asked`` makes of its options."""
+    command = shell.add(commands, name, lambda options: _run(shell, asked, options), **words)
+    command.add_argument("study", type=Path, metavar="STUDY", help="a study, FILE.toml")
+    command.add_argument("--design", metavar="NAME", help="a pinned design, in place of the current one")
+    command.add_argument(
+        "--max-deflection",
+        type=_number,
+        metavar="M",
+        help="greatest rail deflection [m], in place of the specification's own",
+    )
+    command.add_argument("--csv", type=Path, metavar="FILE", help="write all figures as CSV, in SI")
+    command.add_argument("--json", type=Path, metavar="FILE", help="write question and answer as JSON, in SI")
+    command.add_argument("--force", action="store_true", help="write over files that exist")
+    return command
+
+
+def _add_range(commands, shell):
+    command = _command(
+        commands,
+        shell,
+        "range",
+        lambda options: _asked("range", fields=options.fields, ranges=dict(options.ranges)),
+        help="Print where the design complies along each field, all others held.",
+    )
+    command.add_argument(
+        "--field", action="append", dest="fields", metavar="FIELD", help="this field; may be given again"
+    )
+    _add_ranges(command)
+    _add_scheduler(command)
+
+
+def _add_sensitivity(commands, shell):
+    def settings(options):
+        if not options.tolerances and options.production is None:
+            return _asked("sensitivity", changes=options.change)
+        return _asked(
+            "sobol",
+            tolerances=dict(options.tolerances),
+            production=_specimens(options),
+            figures=options.figures,
+            samples=options.samples,
+            seed=options.seed,
+        )
+
+    command = _command(
+        commands,
+        shell,
+        "sensitivity",
+        settings,
+        help="Print what changes when each field does, or with tolerances, Sobol indices over these.",
+    )
+    command.add_argument(
+        "--change", type=_share, metavar="SHARE", help="change of each field, 10%% unless given"
+    )
+    _add_tolerances(command)
+    command.add_argument("--samples", type=int, metavar="N", help="base samples, a power of two")
+    _add_figures(command)
+    _add_seed(command)
+    _add_scheduler(command)
+
+
+def _add_tolerance(commands, shell):
+    command = _command(
+        commands,
+        shell,
+        "tolerance",
+        lambda options: _asked(
+            "tolerance",
+            tolerances=dict(options.tolerances),
+            production=_specimens(options),
+            samples=options.samples,
+            seed=options.seed,
+        ),
+        help="Print how sure the design is to comply when its fields scatter; exit with 1 if it never does.",
+    )
+    _add_tolerances(command)
+    command.add_argument("--samples", type=int, metavar="N", help="samples that are drawn, 10000 by default")
+    _add_seed(command)
+    _add_scheduler(command)
+    _add_parquet(command)
+
+
+def _add_map(commands, shell):
+    command = _command(
+        commands,
+        shell,
+        "map",
+        lambda options: _asked(
+            "map",
+            x_field=options.x_field,
+            y_field=options.y_field,
+            figures=options.figures,
+            ranges=dict(options.ranges),
+            points=options.points,
+        ),
+        help="Compute figures over two fields; exit with 1 if no design of the map complies.",
+        epilog="The table goes to --csv; printed is what it says in one sentence.",
+    )
+    command.add_argument("x_field", metavar="X_FIELD")
+    command.add_argument("y_field", metavar="Y_FIELD")
+    _add_figures(command)
+    _add_ranges(command)
+    command.add_argument(
+        "--points", type=_points, metavar="NXxNY", help="points along x and y, 200x200 by default"
+    )
+    _add_scheduler(command)
+    _add_parquet(command)
+
+
+def _add_find(commands, shell):
+    command = _command(
+        commands,
+        shell,
+        "find",
+        lambda options: _asked(
+            "find",
+            free=dict(options.free),
+            choices=_choices(options),
+            objectives=options.objectives,
+            cost=dict(options.costs),
+            population=options.population,
+            generations=options.generations,
+            seed=options.seed,
+        ),
+        help="Search for designs that comply, and the best of them; exit with 1 if none does.",
+    )
+    command.add_argument(
+        "--free",
+        action="append",
+        type=_free,
+        default=[],
+        metavar="FIELD[=LOW..HIGH]",
+        help="a field that is free, over its slider's range unless one is given [SI]; may be given again",
+    )
+    command.add_argument(
+        "--choose",
+        action="append",
+        type=Path,
+        default=[],
+        metavar="FILE.csv",
+        help="a catalogue: one product a row, fields [SI] and cost in columns; may be given again",
+    )
+    command.add_argument("--rails", metavar="NAME,NAME", help="rails to choose from, such as 54E1,60E1")
+    command.add_argument(
+        "--objective",
+        action="append",
+        dest="objectives",
+        metavar="NAME",
+        help="what is sought: margin, deflection, level, cost, or a field; may be given again",
+    )
+    command.add_argument(
+        "--cost",
+        action="append",
+        type=_field_number,
+        default=[],
+        dest="costs",
+        metavar="FIELD=PER_UNIT",
+        help="cost per SI unit of a field, for the objective cost; may be given again",
+    )
+    command.add_argument(
+        "--population", type=int, metavar="N", help="designs of a generation, 100 by default"
+    )
+    command.add_argument("--generations", type=int, metavar="N", help="generations, 60 by default")
+    _add_seed(command)
+    _add_scheduler(command)
+
+
+def _add_ranges(command):
+    command.add_argument(
+        "--range",
+        action="append",
+        type=_range,
+        default=[],
+        dest="ranges",
+        metavar="FIELD=LOW..HIGH",
+        help="range of a field [SI], in place of its slider's; may be given again",
+    )
+
+
+def _add_tolerances(command):
+    command.add_argument(
+        "--tolerance",
+        action="append",
+        type=_tolerance,
+        default=[],
+        dest="tolerances",
+        metavar="FIELD=SHARE",
+        help="10%% or 0.1: anything within; normal:5%%: that standard deviation; may be given again",
+    )
+    command.add_argument(
+        "--production",
+        type=Path,
+        metavar="FILE.csv",
+        help="measured values, one specimen a row, fields [SI] in columns",
+    )
+
+
+def _add_figures(command):
+    command.add_argument(
+        "--figure",
+        action="append",
+        dest="figures",
+        metavar="NAME",
+        help="margin, level, deflection, loaded_track, coupled_block or a band, as 63; may be given again",
+    )
+
+
+def _add_seed(command):
+    command.add_argument("--seed", type=int, metavar="N", help="seed, 0 unless given")
+
+
+def _add_scheduler(command):
+    command.add_argument(
+        "--scheduler", metavar="ADDRESS", help="solve on a Dask cluster, such as tcp://10.0.0.5:8786"
+    )
+
+
+def _add_parquet(command):
+    command.add_argument(
+        "--parquet",
+        type=Path,
+        metavar="FOLDER",
+        help="solve into a folder of Parquet files instead, any number of designs; go on where that ended",
+    )
+    command.add_argument(
+        "--fidelity", choices=FIDELITIES, default="exact", help="with --parquet: exact unless given"
+    )
+
+
+def _asked(kind, **settings):
+    """Return the kind of question, and the settings that were given."""
+    return kind, {name: value for name, value in settings.items() if value not in (None, {}, [])}
+
+
+def _run(shell, asked, options):
+    outputs = [path for path in (options.csv, options.json) if path is not None]
+    if outputs.count(STANDARD_OUTPUT) > 1:
+        raise DecideError("--csv - --json -: standard output takes one of them")
+    for path in outputs:
+        shell.refuse_to_lose(path, options.force, options.study)
+    try:
+        return _answer(shell, *asked(options), options)
+    except tig.SolveCancelled:
+        return STOPPED
+    except (tig.DesignError, tig.StudyError, DecideError):
+        raise
+    # what the core refuses; its message names what is at fault
+    except (ValueError, KeyError, ConnectionError, ImportError) as error:
+        raise DecideError(error.args[0]) from error
+
+
+def _answer(shell, kind, settings, options):
+    # slow to load, and no other command needs it
+    from trackig_core.decide import Answer, Question
+
+    study = shell.open_study(options.study)
+    if getattr(options, "parquet", None) is not None:
+        return _job(study, kind, settings, options)
+    if options.max_deflection is not None:
+        settings["max_deflection"] = options.max_deflection
+    question = Question(
+        kind=kind,
+        design=_design(study, options.design),
+        settings=settings,
+        specification=study.specification,
+        source=study.source,
+        reference=study.view.reference,
+        summation=study.view.summation,
+    )
+    with _watched(options.scheduler) as how:
+        result = question.ask(**how)
+    table = result.to_dataframe()
+    if STANDARD_OUTPUT not in (options.csv, options.json):
+        sys.stdout.write(_text(result, table))
+    if options.csv is not None:
+        shell.write(options.csv, table.to_csv(index=False, lineterminator="\n"))
+    if options.json is not None:
+        shell.write(options.json, _json(Answer.of(question, result), table))
+    if getattr(result, "stopped", False):
+        return STOPPED
+    return 0 if _anything_complies(result) else FAILED
+
+
+def _job(study, kind, settings, options):
+    """Solve what a question is about into a folder, part by part."""
+    from trackig_core.decide import Grid, Samples, run_job
+    from trackig_core.decide.maps import map_axes
+    from trackig_core.decide.questions import arguments
+
+    design, given = _design(study, options.design), arguments(settings)
+    if kind == "map":
+        given.pop("figures", None)
+        x, y = map_axes(design, **given)
+        designs = Grid(design, {given["y_field"]: y, given["x_field"]: x})
+    else:
+        size = given.pop("samples", SAMPLES)
+        designs = Samples(design, given.pop("tolerances", {}), size, **given)
+    view = study.view
+    with _watched(options.scheduler) as how:
+        job = run_job(
+            designs,
+            options.parquet,
+            fidelity=options.fidelity,
+            reference=view.reference,
+            summation=view.summation,
+            **how,
+        )
+    sys.stdout.write(f"{job}\n")
+    return 0
+
+
+def _design(study, name):
+    """Return the current design of a study, or the pinned one of a name."""
+    if name is None:
+        return study.design
+    for pinned in study.pinned:
+        if pinned.name == name:
+            return pinned.design
+    there = ", ".join(repr(pinned.name) for pinned in study.pinned) or "none"
+    raise DecideError(f"--design {name}: there is no such pinned design; pinned are {there}")
+
+
+def _anything_complies(result):
+    """Return whether anything complies, or nothing was held against a specification."""
+    from trackig_core import decide
+
+    if isinstance(result, decide.FeasibleRanges):
+        return result.complies or any(result.values())
+    if isinstance(result, decide.ToleranceResult):
+        return result.complying > 0
+    if isinstance(result, decide.DesignMap):
+        return result.complies is None or bool(result.complies.any())
+    return not isinstance(result, decide.FoundDesigns) or result.front.size > 0
+
+
+def _text(result, table):
+    """Return what is printed: the rows that fit on a screen, and the sentence."""
+    return f"{_rows(result, table)}\n\n{result}\n"
+
+
+def _rows(result, table):
+    """Return the rows of a result that a person reads."""
+    from trackig_core import decide
+
+    if isinstance(result, decide.FoundDesigns):
+        columns = [name for name in table if name in result.free or name in result.objectives]
+        columns += [name for name in ("slack", "governed_by") if name in table]
+        places = result.front if result.front.size else [result.closest]
+        table = table.loc[places, columns]
+    elif isinstance(result, decide.ToleranceResult):
+        table = _tolerance_rows(result)
+    elif isinstance(result, decide.DesignMap):
+        table = table.drop(columns=[result.x_field, result.y_field]).describe().loc[["min", "50%", "max"]]
+        return table.to_string(float_format="{:.5g}".format)
+    elif isinstance(result, decide.Sensitivity):
+        table = table[["field", "change", *result.figures]]
+    if table.empty:
+        return "(no row)"
+    return table.to_string(index=False, float_format="{:.5g}".format)
+
+
+def _tolerance_rows(result):
+    """Return percentiles of insertion gain, band by band."""
+    import pandas as pd
+
+    columns = {"band_hz": tig.BAND_LABELS}
+    columns |= {f"{share}_percent": gain for share, gain in zip((5, 50, 95), result.percentiles, strict=True)}
+    return pd.DataFrame(columns)
+
+
+def _json(answer, table):
+    question = answer.question
+    found = {
+        "question": question.kind,
+        "settings": dict(question.settings),
+        "reference": question.reference,
+        "summation": question.summation,
+        "sentence": answer.sentence,
+        "digest": answer.digest,
+        "versions": dict(answer.versions),
+        "rows": json.loads(table.to_json(orient="records", double_precision=15)),
+    }
+    return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
+
+
+@contextmanager
+def _watched(scheduler):
+    """Tell on standard error how far it is, and let Ctrl+C ask it to end; a second Ctrl+C ends it at once."""
+    stop = threading.Event()
+
+    def interrupted(_signal, _frame):
+        if stop.is_set():
+            raise KeyboardInterrupt
+        stop.set()
+
+    shown = -1
+
+    def progress(done):
+        nonlocal shown
+        tenths = int(10 * done)
+        if tenths > shown:
+            shown = tenths
+            sys.stderr.write(f"{10 * tenths} %\n")
+            sys.stderr.flush()
+
+    before = signal.signal(signal.SIGINT, interrupted)
+    try:
+        yield {"progress": progress, "cancelled": stop.is_set, "scheduler": scheduler}
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _number(text):
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r}: give a number") from None
+
+
+def _share(text):
+    """Return a share given as 0.1 or as 10%."""
+    return _number(text[:-1]) / 100 if text.endswith("%") else _number(text)
+
+
+def _pair(text, example):
+    """Return the field and the rest of FIELD=REST."""
+    field, equals, rest = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r}: write {example}")
+    return field, rest
+
+
+def _field_number(text):
+    field, number = _pair(text, "FIELD=NUMBER, such as block_mass=2.5")
+    return field, _number(number)
+
+
+def _tolerance(text):
+    """Return a field, and its tolerance as plain values."""
+    field, given = _pair(text, "FIELD=SHARE, such as boot_stiffness=10%")
+    kind, colon, share = given.rpartition(":")
+    return field, {kind: _share(share)} if colon else _share(share)
+
+
+def _range(text):
+    field, ends = _pair(text, "FIELD=LOW..HIGH, such as boot_stiffness=10e6..40e6")
+    low, dots, high = ends.partition("..")
+    if not dots:
+        raise argparse.ArgumentTypeError(f"{text[:60]!r}: write FIELD=LOW..HIGH")
+    return field, [_number(low), _number(high)]
+
+
+def _free(text):
+    """Return a field, and its range or that of its slider."""
+    if "=" in text:
+        return _range(text)
+    if text not in SLIDER_RANGES:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r}: fields are {', '.join(SLIDER_RANGES)}")
+    return text, list(SLIDER_RANGES[text])
+
+
+def _points(text):
+    x, _, y = text.partition("x")
+    try:
+        return [int(x), int(y)]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r}: write NXxNY, such as 200x200") from None
+
+
+def _specimens(options):
+    """Return the table of production samples, if there is one."""
+    return None if options.production is None else _table(options.production)
+
+
+def _choices(options):
+    """Return what is chosen from catalogues and rails."""
+    choices = {path.stem: _products(path) for path in options.choose}
+    if options.rails is not None:
+        choices["rail"] = options.rails.split(",")
+    return choices
+
+
+def _products(path):
+    """Return the rows of a catalogue, each a dict."""
+    columns = _table(path)
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+
+def _table(path):
+    """Return the columns of a CSV file with a header."""
+    with path.open("rb") as file:
+        data = file.read(MOST_BYTES + 1)
+    if len(data) > MOST_BYTES:
+        raise DecideError(f"{path}: the file is larger than {MOST_BYTES // 10**6} MB")
+    rows = list(csv.reader(io.StringIO(data.decode("utf-8-sig", errors="replace"))))
+    rows = [row for row in rows if any(cell.strip() for cell in row)]
+    if len(rows) < 2:
+        raise DecideError(f"{path}: give a header of fields and one row or more")
+    header = [cell.strip() for cell in rows[0]]
+    columns = {name: [] for name in header}
+    for number, row in enumerate(rows[1:], start=2):
+        if len(row) != len(header):
+            raise DecideError(
+                f"{path}, row {number}: {len(row)} values, and {len(header)} fields in the header"
+            )
+        for field, cell in zip(header, row, strict=True):
+            columns[field].append(_cell(path, number, field, cell.strip()))
+    return columns
+
+
+def _cell(path, number, field, cell):
+    """Return a cell as a number, or a rail's name as it is."""
+    if field == "rail":
+        return cell
+    try:
+        return float(cell)
+    except ValueError:
+        raise DecideError(f"{path}, row {number}, {field}: {cell[:40]!r} is no number") from None

@@ -1,0 +1,523 @@
+"""The pictures of a decision: what matters, how sure it is, where designs comply, and which were found.
+
+Built once with Bokeh, then fed by assigning each data source's ``data``. Quantities are in display units.
+"""
+
+import numpy as np
+from bokeh.events import Tap
+from bokeh.models import (
+    BoxSelectTool,
+    ColorBar,
+    ColumnDataSource,
+    FactorRange,
+    FixedTicker,
+    HoverTool,
+    LinearColorMapper,
+    Range1d,
+    TapTool,
+)
+from bokeh.palettes import RdBu11, Viridis256
+from bokeh.plotting import figure
+from bokeh.plotting.contour import contour_data
+
+import trackig_core as tig
+from dashboard import theme
+from dashboard.fields import FIELDS
+from dashboard.figures.axes import (
+    LEVEL_ROOM,
+    LEVEL_STEP,
+    AxisEnds,
+    blank_figure,
+    dress,
+    show_bands,
+    zero_line,
+)
+
+DIVERGING = tuple(RdBu11[::-1])
+"""Colours from less to more, white between them; told apart by colour-blind readers."""
+
+CELL = 0.9
+"""Height of a cell of a heat map, of the room that a field has [-]."""
+
+LEAST_CHANGE = 0.1
+"""What the scale of a heat map reaches at least on either side [dB]."""
+
+ROUND_NUMBERS = [factor * 10**power for power in range(-3, 5) for factor in (1, 2, 5)]
+"""Ticks of logarithmic axes."""
+
+MOST_DRAWN = 1000
+"""Designs of a search that are drawn [-]: the front, and of the rest as many as fit."""
+
+MOST_CURVES = 40
+"""Curves of selected designs that are drawn [-]."""
+
+
+BANDS = {"centre": tig.BAND_CENTRES, "left": tig.BAND_EDGES[:-1], "right": tig.BAND_EDGES[1:]}
+"""Columns that every source over bands has [Hz]."""
+
+
+class ChangeFigure:
+    """How insertion gain changes in each band with each field: a heat map of fields by bands.
+
+    Attributes
+    ----------
+    model : bokeh.plotting.figure
+        The figure.
+    cells : bokeh.models.ColumnDataSource
+        Named ``changes``: per cell its ``field``, its ``band``, its edges and the ``change`` of insertion
+        gain [dB].
+    """
+
+    COLUMNS = ("field", "band", "left", "right", "bottom", "top", "change")
+
+    def __init__(self):
+        self.cells = ColumnDataSource(name="changes", data={name: [] for name in self.COLUMNS})
+        self._fields = FactorRange(factors=[])
+        self._colours = LinearColorMapper(palette=DIVERGING, low=-1.0, high=1.0)
+        self.model = plot = figure(
+            name="change_figure",
+            x_axis_type="log",
+            y_range=self._fields,
+            x_axis_label="One-third-octave band, Hz",
+            stylesheets=[theme.MEDIUM],
+        )
+        dress(plot, "Change of insertion gain per field and band")
+        show_bands(plot)
+        plot.ygrid.visible = False
+        cells = plot.quad(
+            left="left",
+            right="right",
+            bottom="bottom",
+            top="top",
+            source=self.cells,
+            fill_color={"field": "change", "transform": self._colours},
+            line_color=None,
+        )
+        plot.add_layout(ColorBar(color_mapper=self._colours, title="dB", width=12), "right")
+        plot.add_tools(
+            HoverTool(
+                renderers=[cells],
+                tooltips=[("field", "@field"), ("band", "@band Hz"), ("change", "@change{+0.00} dB")],
+            )
+        )
+
+    def show(self, labels, changes):
+        """Draw changes.
+
+        Parameters
+        ----------
+        labels : sequence of str
+            What the fields are called, from the top down.
+        changes : numpy.ndarray (fields, 21)
+            Change of insertion gain [dB].
+        """
+        bands = len(tig.BAND_LABELS)
+        self._fields.factors = list(labels)[::-1]
+        reach = max(LEAST_CHANGE, float(np.abs(changes).max()))
+        self._colours.update(low=-reach, high=reach)
+        self.cells.data = {
+            "field": np.repeat(labels, bands).tolist(),
+            "band": list(tig.BAND_LABELS) * len(labels),
+            "left": np.tile(tig.BAND_EDGES[:-1], len(labels)),
+            "right": np.tile(tig.BAND_EDGES[1:], len(labels)),
+            "bottom": [(label, -CELL / 2) for label in labels for _ in range(bands)],
+            "top": [(label, CELL / 2) for label in labels for _ in range(bands)],
+            "change": changes.ravel(),
+        }
+
+
+class TornadoFigure:
+    """How one figure changes with each field, the field that matters most on top.
+
+    Attributes
+    ----------
+    model : bokeh.plotting.figure
+        The figure.
+    bars : bokeh.models.ColumnDataSource
+        Named ``tornado``: per field its name, the change when it is ``less`` and when it is ``more``.
+    """
+
+    def __init__(self):
+        self.bars = ColumnDataSource(name="tornado", data={"field": [], "less": [], "more": []})
+        self._fields = FactorRange(factors=[])
+        self.model = plot = figure(
+            name="tornado_figure",
+            y_range=self._fields,
+            x_axis_label="Change",
+            stylesheets=[theme.MEDIUM],
+        )
+        dress(plot, "Change of a figure with each field")
+        plot.ygrid.visible = False
+        plot.add_layout(zero_line("height"))
+        sides = (
+            ("less", theme.LOADED_TRACK, "", 0.2),
+            ("more", theme.THIS_DESIGN, "right_diagonal_line", -0.2),
+        )
+        for column, colour, hatch, _ in sides:
+            plot.hbar(
+                y="field",
+                right=column,
+                height=0.7,
+                source=self.bars,
+                fill_color=colour,
+                fill_alpha=theme.BAR_ALPHA,
+                line_color=colour,
+                hatch_pattern=hatch or None,
+                hatch_color=colour,
+                legend_label=column,
+            )
+        plot.add_layout(plot.legend[0], "above")
+        plot.legend.orientation = "horizontal"
+        plot.add_tools(
+            HoverTool(tooltips=[("field", "@field"), ("less", "@less{+0.00}"), ("more", "@more{+0.00}")])
+        )
+
+    def show(self, labels, changes, axis):
+        """Draw changes.
+
+        Parameters
+        ----------
+        labels : sequence of str
+            What the fields are called, the one that matters most first.
+        changes : numpy.ndarray (fields, 2)
+            Change of the figure when the field is less and when it is more.
+        axis : str
+            What is drawn, with its unit.
+        """
+        self._fields.factors = list(labels)[::-1]
+        self.model.xaxis.axis_label = axis
+        self.bars.data = {"field": list(labels), "less": changes[:, 0], "more": changes[:, 1]}
+
+
+class PercentileFigure:
+    """Insertion gain of production, band by band: median and the range of nine in ten, beside the limit.
+
+    Attributes
+    ----------
+    model : bokeh.plotting.figure
+        The figure.
+    bands : bokeh.models.ColumnDataSource
+        Named ``percentiles``: per band its ``centre`` [Hz], ``low``, ``median``, ``high``, ``stated`` and
+        ``limit`` [dB].
+    """
+
+    COLUMNS = ("low", "median", "high", "stated", "limit")
+
+    def __init__(self):
+        none = np.full(tig.BAND_CENTRES.size, np.nan)
+        self.bands = ColumnDataSource(name="percentiles", data=BANDS | dict.fromkeys(self.COLUMNS, none))
+        self._ends = AxisEnds((-30.0, 20.0))
+        self.model = plot = blank_figure(
+            name="percentile_figure",
+            aria_label="Insertion gain of production per one-third-octave band",
+            x_axis_type="log",
+            y_range=self._ends.model,
+            x_axis_label="One-third-octave band, Hz",
+            y_axis_label="Insertion gain, dB",
+            stylesheets=[theme.MEDIUM],
+        )
+        show_bands(plot)
+        plot.add_layout(zero_line())
+        shared = {"x": "centre", "source": self.bands}
+        plot.varea(
+            y1="low",
+            y2="high",
+            fill_color=theme.THIS_DESIGN,
+            fill_alpha=theme.FILL_ALPHA,
+            legend_label="5 % to 95 % of production",
+            **shared,
+        )
+        lines = (
+            ("median", "median", theme.THIS_DESIGN, "solid"),
+            ("stated", "as stated", theme.PRESET_GHOST, "dashed"),
+        )
+        for column, words, colour, dash in lines:
+            plot.line(
+                y=column,
+                line_color=colour,
+                line_dash=dash,
+                line_width=theme.THIN_LINE_WIDTH,
+                legend_label=words,
+                **shared,
+            )
+        _draw_limit(plot, self.bands, legend_label="required maximum")
+        plot.add_layout(plot.legend[0], "above")
+        plot.legend.orientation = "horizontal"
+
+    def show(self, percentiles, stated, limit):
+        """Draw insertion gain at 5, 50, 95 % of production (3, 21), as stated (21,), and the limit [dB]."""
+        self.bands.data = BANDS | dict(zip(self.COLUMNS, (*percentiles, stated, limit), strict=True))
+        seen = np.concatenate([*percentiles, stated, limit])
+        self._ends.show(np.nanmin(seen) - LEVEL_ROOM, np.nanmax(seen) + LEVEL_ROOM, LEVEL_STEP)
+
+
+class MapFigure:
+    """A figure of designs over two of their fields, with the edge of compliance.
+
+    Parameters
+    ----------
+    on_tap : callable
+        Called with the values of both fields [display units] where the user taps.
+
+    Attributes
+    ----------
+    model : bokeh.plotting.figure or None
+        The figure; a new one for other fields, since an axis is logarithmic or it is not.
+    """
+
+    def __init__(self, on_tap):
+        self._on_tap = on_tap
+        self.model = None
+
+    def show(self, found, figure_name, words, designs, limits):
+        """Draw a map anew.
+
+        Parameters
+        ----------
+        found : trackig_core.decide.DesignMap
+            The map.
+        figure_name : str
+            Which of its figures.
+        words : str
+            What that is called, with its unit.
+        designs : sequence of DesignResult
+            Designs that are marked: the current one, and pinned ones.
+        limits : dict of str to float or None
+            Limit by name of a figure [SI], along which designs just comply.
+        """
+        x_field, y_field = FIELDS[found.x_field], FIELDS[found.y_field]
+        x, y = found.x / x_field.factor, found.y / y_field.factor
+        values = found.figures[figure_name] * SCALES.get(figure_name, 1.0)
+        plot = self.model = figure(
+            name="map_figure",
+            x_axis_type="log" if x_field.logarithmic else "linear",
+            y_axis_type="log" if y_field.logarithmic else "linear",
+            x_range=Range1d(x[0], x[-1], bounds="auto"),
+            y_range=Range1d(y[0], y[-1], bounds="auto"),
+            x_axis_label=x_field.labelled,
+            y_axis_label=y_field.labelled,
+            stylesheets=[theme.TALL],
+        )
+        dress(plot, f"{words} over {x_field.label} and {y_field.label}")
+        for axis, field in ((plot.xaxis, x_field), (plot.yaxis, y_field)):
+            if field.logarithmic:
+                axis.ticker = FixedTicker(ticks=ROUND_NUMBERS)
+        colours = LinearColorMapper(
+            palette=Viridis256, low=float(np.nanmin(values)), high=float(np.nanmax(values))
+        )
+        # the axes are those along which the points are evenly spaced, so that an image of them is not bent
+        image = plot.image(
+            image=[values], x=x[0], y=y[0], dw=x[-1] - x[0], dh=y[-1] - y[0], color_mapper=colours
+        )
+        plot.add_layout(ColorBar(color_mapper=colours, title=words, width=14), "right")
+        plot.add_tools(
+            HoverTool(renderers=[image], tooltips=[("x", "$x"), ("y", "$y"), (words, "@image{0.00}")])
+        )
+        for name, limit in limits.items():
+            if limit is not None and name in found.figures:
+                self._draw_edge(plot, x, y, found.figures[name] - limit, *EDGES[name])
+        self._mark(plot, found, designs)
+        plot.on_event(Tap, lambda event: self._on_tap(event.x, event.y))
+
+    def _draw_edge(self, plot, x, y, over, words, dash):
+        """Draw where a figure is at its limit."""
+        lines = contour_data(x, y, over, levels=[0.0], want_fill=False).line_data
+        plot.multi_line(
+            xs=lines.xs,
+            ys=lines.ys,
+            line_color=theme.SPECIFICATION,
+            line_dash=dash,
+            line_width=theme.LIMIT_LINE_WIDTH,
+            legend_label=words,
+        )
+
+    def _mark(self, plot, found, designs):
+        for each in designs:
+            design = each.design
+            place = [getattr(design, name) for name in (found.x_field, found.y_field)]
+            if all(isinstance(value, float) for value in place):
+                plot.scatter(
+                    x=[place[0] / FIELDS[found.x_field].factor],
+                    y=[place[1] / FIELDS[found.y_field].factor],
+                    size=14,
+                    marker="circle" if each.key is None else "diamond",
+                    fill_color=each.colour,
+                    line_color="white",
+                    line_width=2,
+                    legend_label=each.name[: theme.LEGEND_NAME],
+                )
+        if plot.legend:
+            plot.add_layout(plot.legend[0], "above")
+            plot.legend.orientation = "horizontal"
+
+
+EDGES = {"margin": ("just complies", "solid"), "deflection": ("sinks just as far as allowed", "dashed")}
+"""What the edges of compliance are called, and their dashes, by the figure that is limited."""
+
+SCALES = {"deflection": 1e3}
+"""What turns a figure into the unit that is shown [mm/m]."""
+
+
+class CloudFigure:
+    """Designs that a search tried, in three linked pictures: objectives, fields, insertion gain.
+
+    What is brushed in the first or the second is drawn in all three.
+
+    Attributes
+    ----------
+    designs : bokeh.models.ColumnDataSource
+        Named ``found``: per design the ``row`` of the search, both objectives ``x`` and ``y``, places ``xs``
+        and ``ys`` along its fields, 0 to 1, and ``colour``.
+    curves : bokeh.models.ColumnDataSource
+        Named ``found_gains``: insertion gain of the designs that are selected.
+    objectives, fields, gains : bokeh.plotting.figure
+        The pictures.
+    """
+
+    def __init__(self, on_select):
+        self._on_select = on_select
+        self._found = self._levels = None
+        self.designs = ColumnDataSource(
+            name="found", data={name: [] for name in ("row", "x", "y", "xs", "ys", "colour", "size")}
+        )
+        self.curves = ColumnDataSource(name="found_gains", data={"xs": [], "ys": []})
+        self.objectives = self._picture("objectives_figure", "Designs by their objectives", theme.MEDIUM)
+        self.fields = self._picture("fields_figure", "Designs by their fields", theme.MEDIUM)
+        self.gains = blank_figure(
+            name="found_gain_figure",
+            aria_label="Insertion gain of the selected designs",
+            x_axis_type="log",
+            x_axis_label="One-third-octave band, Hz",
+            y_axis_label="Insertion gain, dB",
+            stylesheets=[theme.MEDIUM],
+        )
+        show_bands(self.gains)
+        self.gains.add_layout(zero_line())
+        self._draw()
+        self.designs.selected.on_change("indices", self._selected)
+
+    def _picture(self, name, words, height):
+        plot = figure(name=name, stylesheets=[height], x_axis_label="", y_axis_label="")
+        dress(plot, words)
+        plot.add_tools(TapTool(), BoxSelectTool(persistent=False))
+        return plot
+
+    def _draw(self):
+        dots = self.objectives.scatter(
+            x="x",
+            y="y",
+            size="size",
+            source=self.designs,
+            fill_color="colour",
+            line_color=None,
+            nonselection_fill_alpha=0.1,
+        )
+        self.objectives.add_tools(
+            HoverTool(renderers=[dots], tooltips=[("x", "@x{0.00}"), ("y", "@y{0.00}")])
+        )
+        self.fields.multi_line(
+            xs="xs",
+            ys="ys",
+            source=self.designs,
+            line_color="colour",
+            line_alpha=0.35,
+            selection_line_alpha=1,
+            nonselection_line_alpha=0.04,
+        )
+        self.fields.y_range = Range1d(-0.04, 1.04)
+        self.fields.yaxis.visible = False
+        self.fields.ygrid.visible = False
+        self.gains.multi_line(
+            xs="xs", ys="ys", source=self.curves, line_color=theme.THIS_DESIGN, line_alpha=0.5
+        )
+        self.limit = ColumnDataSource(name="found_limit", data=BANDS | {"limit": NO_LIMIT})
+        _draw_limit(self.gains, self.limit)
+
+    def show(self, found, levels, labels, ends, axes, limit, scales):
+        """Draw what a search found.
+
+        Parameters
+        ----------
+        found : trackig_core.decide.FoundDesigns
+            What was found.
+        levels : numpy.ndarray (tried, 21)
+            Insertion gain of all designs that were tried [dB].
+        labels : sequence of str
+            What its free fields are called, with their ranges.
+        ends : dict of str to (float, float)
+            Range of each free field that is a number [SI].
+        axes : (str, str)
+            What the two objectives are called, with their units.
+        limit : numpy.ndarray (21,)
+            Greatest insertion gain allowed [dB], NaN in bands that have no limit.
+        scales : (float, float)
+            What turns the objectives into display units.
+        """
+        self._found, self._levels = found, levels
+        rows = _drawn_rows(found)
+        x, y = found.values[rows, 0] * scales[0], found.values[rows, -1] * scales[1]
+        front = np.isin(rows, found.front)
+        places = np.stack([_places(found, name, rows, *each) for name, each in ends.items()], axis=-1)
+        axis = list(range(places.shape[1]))
+        self.designs.selected.indices = []
+        self.designs.data = {
+            "row": rows,
+            "x": x,
+            "y": y,
+            "xs": [axis] * len(rows),
+            "ys": list(places),
+            "colour": [
+                theme.COUPLED_BLOCK if best else theme.THIS_DESIGN if complies else theme.PRESET_GHOST
+                for best, complies in zip(front, found.complies[rows], strict=True)
+            ],
+            "size": np.where(front, 9, 5),
+        }
+        self.objectives.xaxis.axis_label, self.objectives.yaxis.axis_label = axes
+        self.fields.xaxis.ticker = FixedTicker(ticks=axis)
+        self.fields.xaxis.major_label_overrides = dict(zip(axis, labels, strict=True))
+        self.limit.data = BANDS | {"limit": limit}
+        self._selected(None, None, [])
+
+    def _selected(self, _attribute, _old, indices):
+        """Draw insertion gain of what is selected, of the front if nothing is."""
+        if self._found is None:
+            return
+        rows = self.designs.data["row"]
+        chosen = rows[indices] if len(indices) else self._found.front
+        chosen = chosen[:: max(1, -(-len(chosen) // MOST_CURVES))]
+        levels = self._levels[chosen]
+        self.curves.data = {"xs": [tig.BAND_CENTRES] * len(levels), "ys": list(levels)}
+        self._on_select(int(rows[indices[0]]) if len(indices) else None)
+
+
+def _draw_limit(plot, source, **legend):
+    """Draw the limit of each band from edge to edge."""
+    plot.segment(
+        x0="left",
+        x1="right",
+        y0="limit",
+        y1="limit",
+        source=source,
+        line_color=theme.SPECIFICATION,
+        line_width=theme.LIMIT_LINE_WIDTH,
+        **legend,
+    )
+
+
+NO_LIMIT = np.full(tig.BAND_CENTRES.size, np.nan)
+
+
+def _drawn_rows(found):
+    """Return which designs are drawn: those that comply before those that do not, the front among them."""
+    order = np.argsort(-found.slack, kind="stable")
+    rest = order[~np.isin(order, found.front)]
+    room = max(0, MOST_DRAWN - found.front.size)
+    every = max(1, -(-rest.size // max(room, 1)))
+    return np.concatenate([rest[::every], found.front]).astype(int)
+
+
+def _places(found, name, rows, low, high):
+    values = found.many.columns[name][rows].astype(float)
+    if FIELDS[name].logarithmic:
+        return np.log(values / low) / np.log(high / low)
+    return (values - low) / (high - low)

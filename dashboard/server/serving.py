@@ -1,0 +1,233 @@
+"""The server of one process: Bokeh's, with connections from :class:`Acceptor`, a login, and words that fit.
+
+The login is Panel's: a name, which is not checked, and one password for all. It keeps passers-by out; without
+TLS, which a proxy in front can give, whoever listens on the network reads the password.
+"""
+
+import contextlib
+import json
+import logging
+import os
+import sys
+import time
+from collections import deque
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import tornado.web
+from bokeh.server.auth_provider import NullAuth
+from bokeh.server.server import BaseServer
+from bokeh.server.tornado import BokehTornado
+from bokeh.server.urls import per_app_patterns
+from bokeh.server.util import check_allowlist
+from panel.auth import BasicAuthProvider
+from panel.config import config
+from panel.io.application import build_single_handler_application
+from panel.io.resources import DIST_DIR
+from panel.io.server import INDEX_HTML, WSHandler, get_static_routes
+from panel.io.state import state
+from tornado.httpserver import HTTPServer
+from tornado.ioloop import IOLoop, PeriodicCallback
+from tornado.iostream import IOStream
+
+import trackig_core as tig
+from dashboard.server import sessions
+from dashboard.server.acceptor import HEALTH, Acceptor
+from dashboard.server.command import PAGE
+
+DASHBOARD = Path(__file__).parent.parent
+LOGIN = Path(__file__).parent / "templates" / "login.html"
+
+BEAT = 0.5
+"""Time between the beats by which one knows how long the event loop has been busy [s]."""
+
+MOST_HEADER_BYTES, MOST_BODY_BYTES = 2**16, 2**16
+"""What a request may hold; files and changes come through the socket."""
+
+LONGEST_REQUEST = 60.0
+"""Time that a request's body may take [s]."""
+
+
+EXPECTED = ("PULL-DOC-REQ", "PATCH-DOC", "SERVER-INFO-REQ")
+"""Messages that a page sends; Bokeh would also take a document that replaces the session's."""
+
+MOST_FAULTS = 20
+"""Messages that cannot be followed after which a connection is closed."""
+
+LONGEST_LOGGED = 500
+"""Characters of a message that are logged."""
+
+
+class SocketHandler(WSHandler):
+    """Refuses pages of other hosts with advice that fits ``trackig serve``, and bounds what a page may ask.
+
+    Whoever sends what cannot be followed is told so without the server's traceback, and cut off in the end.
+    """
+
+    _faults = 0
+
+    def check_origin(self, origin):
+        """Return whether pages of an origin may open a socket."""
+        host = urlsplit(origin).netloc.lower()
+        if check_allowlist(host, self.application.websocket_origins):
+            return True
+        # the host is what somebody sent: nothing that would break the line
+        shown = "".join(each for each in host[:200] if each.isalnum() or each in ".:-[]")
+        _say(f"a page of {shown or 'no host'} was refused; if it is yours, add --allow-origin {shown}")
+        return False
+
+    async def _handle(self, message):
+        if message.msgtype not in EXPECTED:
+            self._protocol_error(f"{message.msgtype[:40]} is nothing that a page sends")
+            return None
+        return await super()._handle(message)
+
+    async def send_message(self, message):
+        """Send a message; one that says that something failed counts."""
+        if message.msgtype == "ERROR":
+            message.content["traceback"] = None
+            self._faults += 1
+        await super().send_message(message)
+        if self._faults > MOST_FAULTS:
+            self._protocol_error("too many messages that cannot be followed")
+
+
+def shorten(record):
+    """Cut what is logged of a message (a filter of log records)."""
+    if isinstance(record.args, tuple):
+        record.args = tuple(map(_short, record.args))
+    return True
+
+
+def _short(value):
+    text = repr(value)
+    return value if len(text) <= LONGEST_LOGGED else f"{text[:LONGEST_LOGGED]}…"
+
+
+class HealthHandler(tornado.web.RequestHandler):
+    """Answers on connections that a proxy keeps open."""
+
+    def initialize(self, health):
+        """Note what answers."""
+        self._health = health
+
+    def get(self):
+        """Answer that the server is alive."""
+        self.set_header("Content-Type", "application/json")
+        self.set_header("Cache-Control", "no-store")
+        self.write(self._health())
+
+    head = get
+
+
+def run(site, listeners, shares, number, secret, announce):
+    """Serve until told to stop.
+
+    Parameters
+    ----------
+    site : dashboard.server.command.Site
+        Where, and to whom.
+    listeners : list of socket.socket
+        Sockets that listen already.
+    shares : dashboard.server.processes.Shares
+        How many sessions each process has.
+    number : int
+        Which of them this one is.
+    secret : str
+        Signs cookies, in all processes alike.
+    announce : callable
+        Called once pages can be served.
+    """
+    if site.most_sessions is not None:
+        os.environ[sessions.MOST_VARIABLE] = str(site.most_sessions)
+    beats = [time.monotonic()]
+    waiting = deque()
+
+    def is_our_turn():
+        # what the loop has not come to is work for it, too
+        shares.note(number, sessions.count(), len(waiting))
+        return shares.is_turn_of(number)
+
+    def beat():
+        beats[0] = time.monotonic()
+        is_our_turn()
+
+    def health():
+        return json.dumps(
+            {
+                "status": "ok",
+                "version": tig.__version__,
+                "sessions": shares.total(),
+                "busy_s": round(max(0.0, time.monotonic() - beats[0] - BEAT), 1),
+            }
+        )
+
+    for name in ("bokeh.server.protocol_handler", "bokeh.server.views.ws"):
+        logging.getLogger(name).addFilter(shorten)
+    loop = IOLoop.current()
+    http, server = _server(site, secret, health, loop)
+
+    def hand_on(connection, address):
+        waiting.append((connection, address))
+        loop.add_callback(take_up)
+
+    def take_up():
+        connection, address = waiting.popleft()
+        http.handle_stream(IOStream(connection, max_buffer_size=sessions.MOST_MESSAGE_BYTES), address)
+
+    acceptor = Acceptor(listeners, site.prefix + HEALTH, health, hand_on, is_our_turn)
+    PeriodicCallback(beat, 1000 * BEAT).start()
+    server.start()
+    # after what is done before the first session
+    loop.add_callback(acceptor.start)
+    loop.add_callback(announce)
+    loop.add_callback(beat)
+    server.run_until_shutdown()
+    if acceptor.is_alive():
+        acceptor.stop()
+
+
+def _server(site, secret, health, loop):
+    """Return Bokeh's server, and the HTTP server that it answers through."""
+    application = build_single_handler_application(DASHBOARD)
+    routes = [
+        (route, SocketHandler if handler is WSHandler else handler, *more)
+        for route, handler, *more in per_app_patterns
+    ]
+    with _replaced(per_app_patterns, routes):
+        bokeh = BokehTornado(
+            {f"/{PAGE}": application},
+            prefix=site.prefix,
+            extra_websocket_origins=list(site.origins),
+            extra_patterns=[*get_static_routes({}), (HEALTH, HealthHandler, {"health": health})],
+            websocket_max_message_size_bytes=sessions.MOST_MESSAGE_BYTES,
+            index=INDEX_HTML,
+            ico_path=DIST_DIR / "images" / "favicon.ico",
+            auth_provider=NullAuth() if site.password is None else BasicAuthProvider(login_template=LOGIN),
+            cookie_secret=secret,
+        )
+    if site.password is not None:
+        config.cookie_secret = secret
+        state._server_config[bokeh] = {"basic_auth": site.password}
+    http = HTTPServer(
+        bokeh,
+        max_header_size=MOST_HEADER_BYTES,
+        max_body_size=MOST_BODY_BYTES,
+        body_timeout=LONGEST_REQUEST,
+        idle_connection_timeout=LONGEST_REQUEST,
+    )
+    return http, BaseServer(loop, bokeh, http)
+
+
+@contextlib.contextmanager
+def _replaced(patterns, now):
+    before, patterns[:] = list(patterns), now
+    try:
+        yield
+    finally:
+        patterns[:] = before
+
+
+def _say(words):
+    sys.stderr.write(f"trackig: {words}\n")
+    sys.stderr.flush()

@@ -1,0 +1,169 @@
+"""Specifications and sources as people paste them: what is read, what is set aside, what is refused."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import trackig_core as tig
+from trackig_core.levels.specification import Specification, SpecificationError
+
+TWO = ((31.5, -6.0), (40.0, -8.5))
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        "Frequenz [Hz];Grenzwert [dB]\n31,5;-6\n40;-8,5",
+        "Frequency (Hz) Limit (dB)\n31.5 -6\n40 -8.5",
+        "Frequency (Hz)   Limit (dB)\n31.5   -6\n40   -8.5",
+        "frequency_hz ig_max_db\n31.5 -6\n40 -8.5",
+        "Fréquence,Gain\nHz,dB\n31.5,-6\n40,-8.5",
+        "f / Hz\tΔL / dB\n31,5\t\N{EN DASH}6\n40\t\N{MINUS SIGN}8,5",
+        "\n\nRequirement\tof the client\n31.5\t-6\n40\t-8.5",
+        "31,5 Hz\t-6 dB\n40\N{NO-BREAK SPACE}Hz\t<= -8,5 dB",
+        "31,5 Hz -6 dB\n40 Hz ≤ -8,5 dB",
+        "31,5 -6,0\n40 -8,5",
+        "31.5: -6\n40: -8.5",
+        "31.5 Hz = -6 dB\n40 Hz = -8.5 dB",
+        "| Hz | dB |\n|---:|---|\n| 31.5 | -6 |\n| 40 | -8.5 |",
+        '"Frequency\n[Hz]"\t"Limit\n[dB]"\n31.5\t-6\n40\t-8.5',
+        '"31,5","-6"\n"40","-8,5"',
+        "sep=;\n31,5;-6\n40;-8,5",
+        "kHz;dB\n0,0315;-6\n0,04;-8,5",
+        "周波数;上限\n31.5;-6\n40;-8.5",
+        "1/3 octave band;Limit\n31.5;-6\n40;-8.5",
+        "Frequenz [Hz]\t31,5\t40\nGrenzwert [dB]\t-6\t-8,5",
+        "Frequenz;Hz;31,5;40\nGrenzwert;dB;-6;-8,5",
+        "Frequency (Hz) 31.5 40\nLimit in dB -6 -8.5",
+        "Frequenz [Hz];Größe \N{EN DASH} dB\n31,5;\N{EN DASH}6\n40;-8,5".encode("cp1252"),
+        "Frequenz [Hz]\tGrenzwert [dB]\n31,5\t≤ -6\n40\t-8,5".encode("utf-16"),
+        "\N{BYTE ORDER MARK}Frequenz;Größe\n31,5;-6\n40;-8,5".encode(),
+    ],
+)
+def test_what_a_person_would_read_is_read_without_a_word(data):
+    reading = Specification.read(data)
+    assert reading.table.points == TWO
+    assert reading.notes == ()
+    assert not reading.says_loss
+
+
+@pytest.mark.parametrize(
+    ("data", "notes"),
+    [
+        ("31.5;-6\n40;-8.5\n630;-9\n0.8k;-9", ["set aside, outside 5 to 500 Hz: 630, 800 Hz"]),
+        ("31.5;-6\n40;-8.5\n50;\n63;–\n80;n/a", ["no value at 50, 63, 80 Hz"]),
+        ("Los 3\nHz;dB\n31.5;-6\n40;-8.5", ["line 1 is not read: 'Los 3'"]),
+        (
+            "31.5;-6\nlow\n40;-8.5\nall bands",
+            ["line 2 is not read: 'low'", "line 4 is not read: 'all bands'"],
+        ),
+        ("31.5;-6\n40;-8.5\nSum;-3", ["line 3 is not read: 'Sum' is no frequency"]),
+        ("Hz;dB;Remark\n31.5;-6;km 3\n40;-8.5;", ["column 3 ('Remark') is not read"]),
+        (
+            "f_l [Hz];f_m [Hz];f_u [Hz];max [dB]\n28,2;31,5;35,5;-6\n35,5;40;44,7;-8,5",
+            ["column 1 ('f_l [Hz]') is not read", "column 3 ('f_u [Hz]') is not read"],
+        ),
+        ("Frequency;31.5;40\nLimit;-6;-8.5\nFrequency;50;63\nLimit;;n/a", ["no value at 50, 63 Hz"]),
+        ("No.;Hz;dB\n1;31.5;-6\n2;40;-8.5", ["column 1 ('No.') is not read"]),
+        ("Hz;limit, dB;measured, dB\n31.5;-6;-7\n40;-8.5;-9", ["column 3 ('measured, dB') is not read"]),
+    ],
+)
+def test_what_is_set_aside_is_said(data, notes):
+    reading = Specification.read(data)
+    assert reading.table.points == TWO
+    assert list(reading.notes) == notes
+
+
+def test_octave_bands_are_named_as_such():
+    assert "octave bands" in Specification.read("31.5;-6\n63;-7\n125;-8").notes[0]
+
+
+@pytest.mark.parametrize(
+    ("data", "line", "column", "words"),
+    [
+        ("Hz;a;b\n31.5;-6;-7", 1, 3, "column 2 ('a') and column 3 ('b') may both hold ig_max_db: keep one"),
+        ("31,5,-3,5\n40,0,-4,5", 1, 3, "if numbers have decimal commas, separate them by semicolons"),
+        ("31.5 - 6\n40 - 8", 1, 2, "'- 6' may be one number, or no value and a number"),
+        ("31.5;-6\n40;-8*", 2, 2, "ig_max_db = '-8*': give a number from -100 to 100 dB"),
+        ("31.5;-6\n;-8", 2, 1, "frequency_hz = ''"),
+        ("31.5;-6\n4O;-8", 2, 1, "frequency_hz = '4O'"),
+        ("31.5;-6\n600;-8", 2, 1, "frequency_hz = 600.0"),
+        ("31.5;-6 kg\n40;-8", 1, 2, "'-6 kg' is in kg, a unit of mass: give it in dB"),
+        ("31.5;>= -6", 1, 2, "'>= -6': give greatest insertion gain allowed, or the least insertion loss"),
+        ("31.5;<= -6\n40;>= 8", 2, 2, "'>= 8'"),
+        ("Hz;31.5;40\ndB;-6;-8;-9", 2, 4, "'-9' does not stand below a frequency of line 1"),
+        ("Hz;31.5;40\ndB;-6;-8\nHz;50", 3, None, "1 rows from here on"),
+        ("x" * 2000, 1, None, "give at most 1000 a line"),
+        ("1 " * 450 + "\n" + ("1 " * 450 + "\n") * 40, None, None, "cells: give at most 6000"),
+        (b"PK\x03\x04\0\0", None, None, "this is an Excel workbook"),
+        (b"%PDF-1.7", None, None, "this is a PDF"),
+    ],
+)
+def test_what_is_ambiguous_is_refused_with_line_and_column(data, line, column, words):
+    with pytest.raises(SpecificationError) as caught:
+        Specification.read(data)
+    assert (caught.value.line, caught.value.column) == (line, column)
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("data", "says_loss", "is_probable"),
+    [
+        ("Hz;Insertion loss, dB\n31.5;6\n40;8", True, True),
+        ("Hz;Einfügungsdämm-Maß\n31.5;6\n40;-1", True, False),
+        ("Hz;dB\n31.5;>= 6\n40;≥ 8", True, True),
+        ("31.5;6\n40;0", False, True),
+        ("31.5;6\n40;-1", False, False),
+        ("Hz;<= dB\n31.5;-6\n40;-8", False, False),
+    ],
+)
+def test_an_insertion_loss_is_noticed(data, says_loss, is_probable):
+    reading = Specification.read(data)
+    assert (reading.says_loss, reading.table.is_probably_loss) == (says_loss, is_probable)
+
+
+def test_a_turned_specification_is_one_of_insertion_gain():
+    loss = tig.Specification([(31.5, 6.0), (40, 8.5)], "Client")
+    assert loss.turned() == tig.Specification(TWO, "Client")
+    slab = np.zeros(21)
+    assert loss.check(slab).complies
+    assert not loss.turned().check(slab).complies
+
+
+def test_a_source_takes_no_bounds():
+    assert tig.SourceSpectrum.read("Terz\tPegel\n31,5\t62").table.points == ((31.5, 62.0),)
+    with pytest.raises(tig.BandTableError, match="line 1, column 2: '<= 62': give the level alone"):
+        tig.SourceSpectrum.read("31.5;<= 62")
+
+
+WRITTEN = {
+    "separator": ["\t", ";", " ; ", "  ", " | "],
+    "decimal": [".", ","],
+    "minus": ["-", "\N{MINUS SIGN}", "\N{EN DASH}"],
+    "header": [None, ("Frequency [Hz]", "Limit [dB]"), ("f", "IG"), ("Frequenz, Hz", "Anforderung")],
+    "units": [("", ""), (" Hz", " dB"), ("Hz", "")],
+    "sideways": [False, True],
+    "code": [None, "utf-8", "utf-16", "utf-8-sig"],
+}
+
+limits = st.dictionaries(
+    st.sampled_from(tig.BAND_LABELS), st.integers(-1000, 1000).map(lambda tenths: tenths / 10), min_size=3
+)
+
+
+@given(limits, st.fixed_dictionaries({name: st.sampled_from(each) for name, each in WRITTEN.items()}))
+def test_a_specification_may_be_written_in_many_ways(limits, how):
+    def written(number, unit):
+        return f"{number:g}".replace("-", how["minus"]).replace(".", how["decimal"]) + unit
+
+    points = sorted((float(label), limit) for label, limit in limits.items())
+    rows = [[written(value, unit) for value, unit in zip(pair, how["units"], strict=True)] for pair in points]
+    if how["header"] is not None:
+        rows.insert(0, list(how["header"]))
+    if how["sideways"] and (how["header"] is not None or all(limit < 0 for _, limit in points)):
+        rows = zip(*rows, strict=True)
+    text = "\n".join(how["separator"].join(row) for row in rows)
+    reading = Specification.read(text if how["code"] is None else text.encode(how["code"]))
+    assert list(reading.table.points) == points
+    assert reading.notes in ((), ("only octave bands are given: each is taken as its one-third-octave band",))

@@ -1,0 +1,81 @@
+"""Sessions that end leave nothing behind, and there are never more than there is room for."""
+
+import asyncio
+import gc
+import weakref
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from bokeh.application.handlers.document_lifecycle import DocumentLifecycleHandler
+from bokeh.document import Document
+from bokeh.server.contexts import ApplicationContext
+from panel.io.application import build_single_handler_application
+from panel.io.state import state
+from tornado.ioloop import IOLoop
+
+from dashboard.server import sessions
+
+DASHBOARD = Path(__file__).parents[3] / "dashboard"
+
+
+@pytest.fixture
+def application():
+    made = build_single_handler_application(DASHBOARD)
+    made.add(DocumentLifecycleHandler())
+    return made
+
+
+async def begin(context, name):
+    """Make a session as the socket does, and return it."""
+    request = SimpleNamespace(path="/dashboard/ws", arguments={}, cookies={}, headers={})
+    return await context.create_session_if_needed(name, request)
+
+
+def test_a_session_that_no_browser_drew_is_let_go_of(application):
+    async def come_and_go():
+        context = ApplicationContext(application, io_loop=IOLoop.current(), url="/dashboard")
+        left = []
+        for number in range(2):
+            session = await begin(context, f"visitor-{number}")
+            left += [weakref.ref(session.document), *map(weakref.ref, session.document.roots)]
+            del session
+        assert sessions.count() == 2
+        await context._cleanup_sessions(-1)
+        return left
+
+    views = set(state._views)
+    left = asyncio.run(come_and_go())
+    gc.collect()
+    assert [each() for each in left if each() is not None] == []
+    assert set(state._views) == views
+    assert sessions.count() == 0
+
+
+def test_one_session_too_many_gets_a_page_that_says_so(application, monkeypatch):
+    monkeypatch.setenv(sessions.MOST_VARIABLE, "1")
+
+    async def come():
+        context = ApplicationContext(application, io_loop=IOLoop.current(), url="/dashboard")
+        first, second = await begin(context, "one"), await begin(context, "two")
+        titles = first.document.title, second.document.title
+        words = [model.text for model in second.document.select({"name": None}) if hasattr(model, "text")]
+        first.request_expiration()
+        await context._cleanup_sessions(10**6)
+        third = await begin(context, "three")
+        titles += (third.document.title,)
+        await context._cleanup_sessions(-1)
+        return titles, " ".join(words)
+
+    titles, words = asyncio.run(come())
+    assert titles == ("trackig", "trackig is full", "trackig")
+    assert "1 pages are open" in words
+
+
+def test_a_document_counts_until_it_is_forgotten():
+    document = Document()
+    before = sessions.count()
+    assert sessions.admit(document)
+    assert sessions.count() == before + 1
+    sessions.forget(document)
+    assert sessions.count() == before

@@ -1,0 +1,263 @@
+"""Commands that choose between designs print what the core answers, and end with the code that says how."""
+
+import csv
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import trackig_core as tig
+from dashboard.cli import main
+
+ROOT = Path(__file__).parent.parent.parent
+BLOCK = tig.PRESETS["booted-block-low-mass"]
+LEVELS = tig.solve(BLOCK, "exact").insertion_gain
+CEILING = tig.Specification(
+    [(hz, level + 1) for hz, level in zip(tig.BAND_CENTRES, LEVELS, strict=True)], name="One above"
+)
+HOPELESS = tig.Specification([(5, -40.0)])
+
+
+@pytest.fixture
+def save(tmp_path):
+    def save(file="study.toml", **parts):
+        path = tmp_path / file
+        study = tig.Study(**{"design": BLOCK, "specification": CEILING, **parts})
+        path.write_text(study.to_toml(), encoding="utf-8")
+        return str(path)
+
+    return save
+
+
+def table(path):
+    return list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))))
+
+
+def test_range_prints_and_writes_what_the_core_finds(save, tmp_path, capsys):
+    out, answer = tmp_path / "out.csv", tmp_path / "out.json"
+    words = ["range", save(), "--field", "boot_stiffness", "--field", "block_mass"]
+    assert main([*words, "--csv", str(out), "--json", str(answer)]) == 0
+    expected = tig.decide.feasible_ranges(BLOCK, CEILING, fields=["boot_stiffness", "block_mass"])
+    rows = table(out)
+    assert [(row["field"], float(row["low"]), float(row["high"])) for row in rows] == [
+        (field, low, high) for field in expected for low, high in expected[field]
+    ]
+    said = capsys.readouterr().out
+    assert said.endswith(f"\n{expected}\n")
+    assert f"{expected['boot_stiffness'][0][1]:.5g}" in said
+    found = json.loads(answer.read_text(encoding="utf-8"))
+    assert found["sentence"] == str(expected)
+    assert found["rows"][0]["low"] == pytest.approx(expected["boot_stiffness"][0][0], rel=1e-12)
+    assert found["settings"] == {"fields": ["boot_stiffness", "block_mass"]}
+
+
+def test_a_pinned_design_and_a_deflection_limit_are_taken(save, capsys):
+    soft = BLOCK.replace(boot_stiffness=15e6)
+    study = save(pinned=[tig.PinnedDesign("Soft", soft)])
+    sinks = tig.static_response(soft, 85e3).rail_deflection
+    assert main(["range", study, "--design", "Soft", "--max-deflection", str(0.9 * sinks)]) == 0
+    expected = tig.decide.feasible_ranges(soft, CEILING, max_deflection=0.9 * sinks)
+    assert capsys.readouterr().out.endswith(f"\n{expected}\n")
+    assert main(["range", study, "--design", "Hard"]) == 2
+    assert "there is no such pinned design; pinned are 'Soft'" in capsys.readouterr().err
+
+
+def test_sensitivity_is_local_or_over_tolerances(save, capsys):
+    study = save()
+    assert main(["sensitivity", study, "--change", "5%"]) == 0
+    expected = tig.decide.sensitivity(BLOCK, CEILING, changes=0.05)
+    assert capsys.readouterr().out.endswith(f"\n{expected}\n")
+    words = ["--tolerance", "boot_stiffness=10%", "--tolerance", "block_mass=normal:2%", "--samples", "128"]
+    assert main(["sensitivity", study, *words, "--figure", "63", "--seed", "4"]) == 0
+    tolerances = {"boot_stiffness": 0.1, "block_mass": tig.decide.Normal(0.02)}
+    expected = tig.decide.sobol(BLOCK, tolerances, CEILING, figures=["63"], samples=128, seed=4)
+    assert capsys.readouterr().out.endswith(f"\n{expected}\n")
+
+
+def test_tolerance_takes_specimens(save, tmp_path, capsys):
+    specimens = tmp_path / "boots.csv"
+    specimens.write_text(
+        "boot_stiffness,boot_loss_factor\n27e6,0.2\n29e6,0.21\n31e6,0.22\n", encoding="utf-8"
+    )
+    words = [
+        "--production",
+        str(specimens),
+        "--tolerance",
+        "pad_stiffness=0.1",
+        "--samples",
+        "500",
+        "--seed",
+        "2",
+    ]
+    out = tmp_path / "samples.csv"
+    assert main(["tolerance", save(), *words, "--csv", str(out)]) == 0
+    production = {"boot_stiffness": [27e6, 29e6, 31e6], "boot_loss_factor": [0.2, 0.21, 0.22]}
+    expected = tig.decide.tolerance(
+        BLOCK, CEILING, {"pad_stiffness": 0.1}, production=production, samples=500, seed=2
+    )
+    said = capsys.readouterr()
+    assert said.out.endswith(f"\n{expected}\n")
+    assert "100 %" in said.err
+    assert "%\n" not in said.out.replace(str(expected), "")
+    assert [float(row["margin"]) for row in table(out)] == expected.margins.tolist()
+
+
+def test_map_writes_every_point(save, tmp_path, capsys):
+    out = tmp_path / "map.csv"
+    words = ["map", save(), "boot_stiffness", "block_mass", "--points", "7x5", "--range", "block_mass=20..90"]
+    assert main([*words, "--csv", str(out)]) in (0, 1)
+    rows = table(out)
+    assert len(rows) == 35
+    point = BLOCK.replace(
+        boot_stiffness=float(rows[17]["boot_stiffness"]), block_mass=float(rows[17]["block_mass"])
+    )
+    margin = CEILING.check(tig.solve(point, "exact").insertion_gain).worst_margin
+    assert float(rows[17]["margin"]) == pytest.approx(margin, abs=0.01)
+    assert {float(row["block_mass"]) for row in rows} == {20.0, 37.5, 55.0, 72.5, 90.0}
+    assert "of the map complies" in capsys.readouterr().out
+
+
+def test_find_takes_catalogues_and_rails(save, tmp_path, capsys):
+    boots = tmp_path / "boot.csv"
+    boots.write_text("boot_stiffness,boot_loss_factor,cost\n20e6,0.15,30\n28e6,0.2,20\n", encoding="utf-8")
+    words = ["find", save(), "--free", "block_mass=20..100", "--choose", str(boots), "--rails", "60,60E1"]
+    words += ["--objective", "margin", "--objective", "cost", "--cost", "block_mass=0.1"]
+    out = tmp_path / "cloud.csv"
+    assert main([*words, "--population", "20", "--generations", "6", "--csv", str(out)]) == 0
+    rows = table(out)
+    assert len(rows) == 120
+    assert {(row["boot_stiffness"], row["rail"]) for row in rows} == {
+        (boot, rail) for boot in ("20000000.0", "28000000.0") for rail in ("60", "60E1")
+    }
+    price = {"20000000.0": 30, "28000000.0": 20}
+    for row in rows:
+        expected = price[row["boot_stiffness"]] + 0.1 * float(row["block_mass"])
+        assert float(row["cost"]) == pytest.approx(expected)
+    assert "designs comply, and no other beats" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["range"],
+        ["tolerance", "--tolerance", "boot_stiffness=10%", "--samples", "200"],
+        ["find", "--free", "boot_stiffness", "--population", "8", "--generations", "2"],
+    ],
+)
+def test_nothing_complies(save, capsys, words):
+    assert main([words[0], save(specification=HOPELESS), *words[1:]]) == 1
+    assert "compl" in capsys.readouterr().out
+
+
+def test_no_design_of_a_map_complies(save):
+    words = ["map", "boot_stiffness", "block_mass", "--points", "3x3"]
+    assert main([words[0], save(specification=HOPELESS), *words[1:]]) == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["range"], "range needs a specification to hold designs against: give one"),
+        (["map", "boot_stiffness", "boot_stiffness"], "both fields are boot_stiffness: give two"),
+        (["sensitivity", "--tolerance", "rail=10%"], "'rail' is not a single number of this design"),
+        (["map", "boot_stiffness", "block_mass", "--figure", "level"], "level: there is no source spectrum"),
+        (["map", "boot_stiffness", "block_mass", "--range", "block_mass=-1..5"], "give a low end above 0"),
+    ],
+)
+def test_input_at_fault_is_told_in_one_line(save, capsys, words, message):
+    assert main([words[0], save(specification=None), *words[1:]]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("trackig: ")
+    assert message in said
+    assert said.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("boot_stiffness\n20e6,1\n", "row 2: 2 values, and 1 fields in the header"),
+        ("boot_stiffness\nsoft\n", "row 2, boot_stiffness: 'soft' is no number"),
+        ("boot_stiffness\n", "give a header of fields and one row or more"),
+    ],
+)
+def test_a_table_at_fault_names_its_row(save, tmp_path, capsys, text, message):
+    path = tmp_path / "table.csv"
+    path.write_text(text, encoding="utf-8")
+    assert main(["tolerance", save(), "--production", str(path)]) == 2
+    assert message in capsys.readouterr().err
+    assert main(["tolerance", save(), "--production", str(tmp_path / "none.csv")]) == 2
+    assert "none.csv: No such file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["range", "x.toml", "--range", "block_mass=5"], "write FIELD=LOW..HIGH"),
+        (["find", "x.toml", "--free", "colour"], "fields are pad_stiffness"),
+        (["tolerance", "x.toml", "--tolerance", "boot_stiffness"], "write FIELD=SHARE"),
+        (["map", "x.toml", "a", "b", "--points", "5"], "write NXxNY"),
+    ],
+)
+def test_words_that_are_none_are_refused_at_once(capsys, words, message):
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    assert ended.value.code == 2
+    assert message in capsys.readouterr().err
+
+
+def test_it_does_not_write_over_files(save, tmp_path, capsys):
+    out = tmp_path / "out.csv"
+    out.write_text("mine")
+    assert main(["range", save(), "--csv", str(out)]) == 2
+    assert out.read_text() == "mine"
+    assert "give --force" in capsys.readouterr().err
+    assert main(["range", save(), "--csv", str(out), "--force"]) == 0
+
+
+def test_designs_go_to_a_folder_part_by_part(save, tmp_path, capsys):
+    folder = tmp_path / "map"
+    words = ["map", save(), "boot_stiffness", "block_mass", "--points", "5x4", "--parquet", str(folder)]
+    assert main(words) == 0
+    assert capsys.readouterr().out == "20 designs are solved, in 1 part of which 0 were there.\n"
+    assert main(words) == 0
+    assert "1 part of which 1" in capsys.readouterr().out
+    expected = tig.decide.design_map(BLOCK, "boot_stiffness", "block_mass", points=(5, 4), figures=["63"])
+    found = pd.read_parquet(folder)
+    assert np.array_equal(found["63"].to_numpy().reshape(4, 5), expected.figures["63"])
+    words = ["tolerance", save(), "--tolerance", "boot_stiffness=10%", "--samples", "50", "--parquet"]
+    assert main([*words, str(folder)]) == 2
+    assert "holds another job" in capsys.readouterr().err
+    assert main([*words, str(tmp_path / "samples")]) == 0
+    found = pd.read_parquet(tmp_path / "samples")["boot_stiffness"]
+    expected = tig.decide.tolerance(BLOCK, CEILING, {"boot_stiffness": 0.1}, samples=200)
+    assert found.tolist() == expected.many.columns["boot_stiffness"][:50].tolist()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="signals are sent")
+def test_control_c_leaves_the_best_so_far(save, tmp_path):
+    out = tmp_path / "cloud.csv"
+    words = ["find", save(), "--free", "boot_stiffness", "--free", "block_mass", "--generations", "100000"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "dashboard.cli", *words, "--csv", str(out)],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    # 0 % is told after the first generation
+    assert process.stderr.readline() == "0 %\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    said, _ = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "designs comply, and no other beats" in said
+    assert len(table(out)) >= 100

@@ -1,0 +1,59 @@
+"""Numbers of a design in words that can be read aloud: SI units, with prefixes where figures are long."""
+
+from trackig_core.decide.requirements import DEFLECTION, UNITS
+from trackig_core.track.fields import RANGES
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
+
+
+def amount(field: str, value: float, figures: int = 4) -> str:
+    """Return a value of a field with its unit, such as ``"10.85 MN/m"``.
+
+    Parameters
+    ----------
+    field : str
+        Name of the field.
+    value : float
+        Value [unit of the field].
+    figures : int
+        Figures that are shown [-].
+
+    Returns
+    -------
+    str
+        The value in words.
+    """
+    unit = RANGES[field][2]
+    if unit == "N/m":
+        for size, prefix in _PREFIXES:
+            if abs(value) >= size:
+                return f"{value / size:.{figures}g} {prefix}{unit}"
+    return f"{value:.{figures}g} {unit}".rstrip()
+
+
+def plain(field: str) -> str:
+    """Return the name of a field as it is spoken, such as ``"boot stiffness"``."""
+    return field.replace("_", " ")
+
+
+def percent(share: float) -> str:
+    """Return a share [-] in per cent, such as ``"94 %"``, with a decimal near nothing and near all."""
+    if 0 < share < 0.0005:
+        return "under 0.1 %"
+    if share in (0.0, 1.0) or 0.02 <= share <= 0.98:
+        return f"{100 * share:.0f} %"
+    return f"{100 * share:.1f} %"
+
+
+def in_unit(name: str, value: float) -> str:
+    """Return a figure, a field or a cost with its unit; a deflection in mm."""
+    if name == DEFLECTION:
+        return f"{1e3 * value:.2f} mm"
+    if name in UNITS:
+        return f"{value:.1f} {UNITS[name]}"
+    return amount(name, value) if name in RANGES else f"{value:.4g}"
+
+
+def sentence(text: str) -> str:
+    """Return a text that begins with a capital."""
+    return text[0].upper() + text[1:]
