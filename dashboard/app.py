@@ -5,16 +5,21 @@ Parts are made here and handed to each other; no part looks another up.
 
 import logging
 from functools import partial
+from itertools import chain
 
 import panel as pn
 import panel_material_ui as pmui
 import param
+from bokeh.document import Document
+from panel.io.document import _cleanup_doc
+from panel.io.state import set_curdoc
 from panel.util import edit_readonly
 
 from dashboard import theme
 from dashboard.client.browser import Browser
 from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
+from dashboard.compute.document import in_turns
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
@@ -39,9 +44,6 @@ from dashboard.views.verify import Verify
 
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
-
-OPENING = '<div role="status">Opening …</div>'
-"""What a tab holds before it is first looked at."""
 
 CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
 
@@ -85,7 +87,6 @@ def build(store=None, live_store=None):
     checker = VerificationRunner(outcome)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
-    pn.state.onload(lambda: notify_of_problems(problems))
     browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
 
     def show_insertion_gain():
@@ -93,7 +94,7 @@ def build(store=None, live_store=None):
 
     makers = {
         Explore: partial(Explore, outcome, definition, pins, assessment),
-        Compare: partial(Compare, inputs, pins, assessment, show_insertion_gain),
+        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain),
         SpecificationView: partial(SpecificationView, assessment, exchange),
         Decide: partial(Decide, inputs, definition, pins, assessment),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
@@ -103,9 +104,31 @@ def build(store=None, live_store=None):
         Method: Method,
         SaveAndShare: partial(SaveAndShare, snapshot, exchange),
     }
-    status = Status(outcome, runner.stop, runner.request)
-    sidebar = [DesignBar(inputs, pins, snapshot.steps, browser), Controls(inputs)]
-    return page(sidebar, status, tabs(snapshot, makers, exchange), browser, exchange)
+    bar_place = pn.Column(sizing_mode="stretch_width", min_height=theme.DESIGN_BAR_HEIGHT, margin=0)
+    status_place = pn.Column(sizing_mode="stretch_width", min_height=theme.STATUS_HEIGHT, margin=(4, 8, 0, 8))
+    bar = partial(DesignBar, inputs, pins, snapshot.steps, browser)
+    status = partial(Status, outcome, runner.stop, runner.request)
+    in_turns(put(exchange, bar_place, bar), report_error)
+    last = chain(put(exchange, status_place, status), notify_of_problems(problems))
+    shown = tabs(snapshot, makers, exchange, last)
+    return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
+
+
+def put(exchange, place, make):
+    """Make a part in its place, as one step, and prepare the browser for it.
+
+    Parameters
+    ----------
+    exchange : Exchange
+        Prepares the browser.
+    place : panel.Column
+        Where the part goes.
+    make : callable
+        Makes it.
+    """
+    place.objects = [make()]
+    exchange.introduce()
+    yield
 
 
 TABS = (
@@ -123,7 +146,7 @@ TABS = (
 """The tabs, in their order."""
 
 
-def tabs(snapshot, makers, exchange):
+def tabs(snapshot, makers, exchange, last):
     """Return the tabs; each view is made when it is first looked at, and told whether it is in sight.
 
     A page with all of them would take several times as long to open.
@@ -136,44 +159,49 @@ def tabs(snapshot, makers, exchange):
         How each of :data:`TABS` is made.
     exchange : Exchange
         Prepares the browser for what is added.
+    last : iterator
+        Steps that follow when the first view is there.
     """
-    places = [
-        pn.Column(
-            pn.pane.HTML(OPENING, stylesheets=[theme.OPENING_CSS]), sizing_mode="stretch_width", margin=0
-        )
-        for _ in TABS
-    ]
+    places = [pn.Column(stylesheets=[theme.OPENING_CSS], sizing_mode="stretch_width", margin=0) for _ in TABS]
     titled = zip((tab.title for tab in TABS), places, strict=True)
-    shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0)
-    views = {}
+    shown = pmui.Tabs(*titled, sizing_mode="stretch_width", margin=0, sx=theme.TABS)
+    # Panel makes a pane of each title that is plain text, and shows none of them
+    shown._headers = []
+    views, begun = {}, set()
 
-    def look(*_):
+    def look(*_, steps_after=()):
         kind = TABS[shown.active]
         snapshot.tab = kind.link_name
-        new = kind not in views
-        if new:
-            views[kind] = makers[kind]()
         for each, view in views.items():
             view.look(each is kind)
-        # last, since not all widgets can change before the browser has drawn them
-        if new:
-            places[shown.active].objects = [views[kind]]
+        if kind not in begun:
+            begun.add(kind)
+            in_turns(chain(open_view(kind, places[shown.active]), steps_after), report_error)
+
+    def open_view(kind, place):
+        view = views[kind] = makers[kind]()
+        view.look(kind is TABS[shown.active])
+        yield
+        place.stylesheets = []
+        for _ in view.fill(place):
             exchange.introduce()
+            yield
 
     def open_tab(*_):
         shown.active = [tab.link_name for tab in TABS].index(snapshot.tab)
 
     open_tab()
-    look()
+    look(steps_after=last)
     shown.param.watch(look, "active")
     snapshot.param.watch(open_tab, "tab")
     return shown
 
 
 def notify_of_problems(problems):
-    """Say what of a link could not be followed."""
+    """Say what of a link could not be followed, a step for each: two in one message break the second."""
     for words in problems:
         notify("warning", words)
+        yield
 
 
 def page(sidebar, status, main, browser, exchange):
@@ -181,7 +209,7 @@ def page(sidebar, status, main, browser, exchange):
     whole = pmui.Page(
         title=TITLE,
         header=[
-            pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(4, 0, 0, 16)),
+            pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(10, 0, 0, 16)),
             pn.HSpacer(),
             copy_button(),
             browser,
@@ -198,6 +226,15 @@ def page(sidebar, status, main, browser, exchange):
     with edit_readonly(whole):
         whole.busy = Busy().param.value
     return whole
+
+
+def rehearse():
+    """Make a page and throw it away, so that the first session finds classes, models and scripts prepared."""
+    document = Document()
+    with set_curdoc(document):
+        build().server_doc(document, location=False)
+        document.to_json()
+    _cleanup_doc(document)
 
 
 def report_error(error):

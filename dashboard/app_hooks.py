@@ -5,8 +5,10 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 
 import gc
 
+from tornado.ioloop import IOLoop
+
 import trackig_core as tig
-from dashboard.app import TITLE
+from dashboard.app import TITLE, rehearse
 from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
@@ -21,13 +23,18 @@ def on_server_loaded(server_context):
     """Have kernels compiled and the presets solved while pages are served, the opening one first."""
     leave_out_departures()
     compiled()
-    for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET):
+    opening, *_ = [
         shared_store().request((tig.PRESETS[key], AT_REST))
+        for key in sorted(tig.PRESETS, key=lambda key: key != OPENING_PRESET)
+    ]
     # here and not on a thread: an import that sessions run into half-way fails for them
     overlays.load()
     first_page.prepare(server_context.application_context, TITLE)
     # what stays so far: looking through it for garbage would stop every session for 0.1 s now and then
     gc.freeze()
+    # a page that is made of the opening picture asks for no other
+    loop = IOLoop.current()
+    opening.future.add_done_callback(lambda _: loop.add_callback(rehearse))
 
 
 def on_session_destroyed(session_context):

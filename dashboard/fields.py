@@ -48,7 +48,7 @@ class Field:
     step : float
         Step of the slider [display units].
     group : str
-        Heading below which it stands.
+        Heading below which it stands in the sidebar; groups follow each other as they first occur here.
     words : str
         One line of physics.
     logarithmic : bool
@@ -122,13 +122,16 @@ FIELDS = {
             "Mass that bounces on the track below the primary suspension, of one wheel.",
         ),
         Field(
-            *("contact_stiffness", "Contact stiffness", *_STIFF, 200, 5000, 10, "Vehicle"),
+            *("contact_stiffness", "Contact stiffness", *_STIFF, 200, 5000, 10, "Advanced"),
             "Hertzian spring between wheel and rail; in series with the track's stiffness.",
             logarithmic=True,
         ),
     )
 }
 """Every number of a design by its name, in the order of the load path."""
+
+CLOSED_GROUPS = ("Advanced",)
+"""Groups of which the sidebar shows no more than the heading until somebody opens them."""
 
 NUMBERS = tuple(FIELDS)
 """Inputs that are numbers."""

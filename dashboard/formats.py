@@ -19,6 +19,61 @@ def level_text(level):
     return f"{level:+.1f} dB".replace("-", "−")
 
 
+SUMMATIONS = {
+    "energy": "energies of the supports summed, as in the paper",
+    "coherent": "forces of the supports summed",
+}
+REFERENCES = {
+    "line": "relative to the straight line through the track's own spectrum, as in the paper",
+    "rigid": "relative to the exact rigid track",
+    "stiff": "relative to a very stiff track on the same ground, under the same vehicle",
+}
+"""How each kind of insertion gain is named in what leaves the page."""
+
+FIDELITIES = {
+    "paper": "time stepping at the paper's resolution",
+    "live": "time stepping at the live resolution",
+    "exact": "frequency-domain solution",
+}
+"""How each way of solving is named in what leaves the page."""
+
+
+def definition_text(summation, reference):
+    """Return which insertion gain is meant, in words: how supports are summed, and relative to what."""
+    return f"{SUMMATIONS[summation]}; {REFERENCES[reference]}"
+
+
+def fidelities_text(fidelities):
+    """Return how solutions were obtained, in words: each way once."""
+    return " and ".join(FIDELITIES[each] for each in FIDELITIES if each in set(fidelities))
+
+
+def force_text(force):
+    """Return a force [kN] with its sign, three figures and its unit."""
+    return f"{force:+.3g} kN".replace("-", "−")
+
+
+def beyond_text(least, greatest, low, high):
+    """Return how far a force reaches beyond an axis, in words; empty if it does not.
+
+    Parameters
+    ----------
+    least, greatest : float
+        The force's extremes [kN].
+    low, high : float
+        The axis' ends [kN].
+
+    Returns
+    -------
+    str
+        Words to stand behind a name.
+    """
+    beyond = [force for force, leaves in ((greatest, greatest > high), (least, least < low)) if leaves]
+    if not beyond:
+        return ""
+    return " (cut off: reaches " + " and ".join(force_text(force) for force in beyond) + ")"
+
+
 def signed_text(level):
     """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
     text = f"{level:+.1f}"

@@ -99,15 +99,6 @@ NARROW_WINDOW = 1200
 TICK_SIZES, AXIS_SIZES = ("14px", "17px"), ("15px", "17px")
 """Text at the ticks and beside the axes, in narrow windows and in wide ones."""
 
-LEGEND_LINE, LEGEND_ALPHA = 40, 0.75
-"""Length of a legend's lines, long enough for any dash [px], and how little is seen through it."""
-
-LEGEND_ROWS = 3
-"""Entries of a legend in one column; more make two."""
-
-LEGEND_NAME = 24
-"""Characters of a name in a legend, so that the curves are seen beside it."""
-
 SECOND_DASH = [7, 3]
 """Tells the second of two curves from the first without colour."""
 
@@ -120,8 +111,6 @@ SIDE_VIEW_LABEL_SIZE = "16px"
 BAND_LABEL_WIDTH = 40
 """Room that the label of a band needs on the frequency axis [px]."""
 
-
-GROUP_HEADING = {"fontWeight": 700, "letterSpacing": "0.02em"}
 
 HIDDEN_LABEL = {
     "& .MuiInputLabel-root": {"clipPath": "inset(50%)", "position": "absolute", "whiteSpace": "nowrap"},
@@ -140,10 +129,11 @@ LEFT_ALIGNED = {
 
 SIDEBAR_WIDTH = 330
 STATUS_HEIGHT = 32
+DESIGN_BAR_HEIGHT = 80
 FRESH, STALE = {"opacity": "1"}, {"opacity": "0.45"}
 """How pictures look that are those of the inputs, or of earlier ones."""
 
-SUBTITLE = {"color": "white", "opacity": 0.85}
+SUBTITLE = {"color": "white", "opacity": 0.85, "textWrap": "balance"}
 ANSWER_CSS = """
     p { margin: 2px 0; font-size: 1.05rem; color: var(--panel-on-surface-color, inherit); }
     p.problem { color: #c2410c; font-weight: 600; }
@@ -159,7 +149,7 @@ div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
 """
 OPENING_CSS = """
 :host { color: var(--panel-on-background-color); font-size: 15px; }
-div { margin: 12px; opacity: 0; animation: 0s 0.4s forwards late; }
+:host::before { content: "Opening …"; margin: 12px; opacity: 0; animation: 0s 0.4s forwards late; }
 @keyframes late { to { opacity: 1; } }
 """
 """What opens at once says nothing, so that nothing flickers."""
@@ -185,6 +175,15 @@ DRAWING_CSS = """
 :host { color: var(--panel-on-background-color); }
 svg { display: block; width: 100%; height: max(440px, calc(100vh - 200px)); }
 """
+LEGEND_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+ul { display: flex; flex-wrap: wrap; gap: 1px 18px; list-style: none; margin: 0; padding: 0 12px 6px 24px; }
+li { display: flex; align-items: baseline; gap: 7px; font-size: 14px; line-height: 19px; min-width: 0; }
+svg { flex: none; align-self: center; }
+span { overflow-wrap: anywhere; }
+"""
+"""What a figure draws, below it: as many rows as the names need."""
+
 SWATCH_CSS = ".swatch { display: block; }"
 
 TABLE_CSS = """
@@ -196,7 +195,10 @@ th, td { padding: 4px 12px; text-align: right; vertical-align: top; }
 td, tbody th { border-top: 1px solid rgba(128, 128, 128, 0.3); }
 th[scope="row"], th[scope="rowgroup"], thead th:first-child { text-align: left; white-space: nowrap; }
 th[scope="row"] { font-weight: 400; }
-thead th { max-width: 150px; overflow-wrap: anywhere; }
+thead th { min-width: 76px; max-width: 150px; overflow-wrap: break-word; hyphens: auto; }
+td, thead th { padding: 4px 8px; }
+thead th:first-child, th[scope="row"] { position: sticky; left: 0; }
+thead th:first-child, th[scope="row"] { background: var(--panel-surface-color); }
 .group th { padding-top: 12px; }
 .swatch { display: block; margin-left: auto; }
 .name { display: block; }
@@ -214,12 +216,37 @@ PLAYER_CSS = """
 """
 """The controls beside a moving drawing, which run in the browser alone."""
 
-SLIDER = {"& .MuiSlider-mark": {"width": 3, "height": 11, "borderRadius": 1, "backgroundColor": PRESET_GHOST}}
-"""A slider marks the preset's value with a tick."""
+TABS = {
+    "& .MuiTab-root": {"minWidth": 0, "textTransform": "none", "fontSize": 16},
+    f"@media (max-width: {NARROW_WINDOW}px)": {
+        "& .MuiTab-root": {"padding": "12px 6px", "fontSize": 13.5, "letterSpacing": 0}
+    },
+}
+"""All ten tabs are in sight, in narrow windows too."""
 
 PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
-PANEL = {"borderRadius": "8px", "height": "100%"}
-PANEL_TITLE = {"fontWeight": 700}
+PANEL = {"borderRadius": "8px", "height": "100%", "backgroundColor": "var(--panel-surface-color)"}
+"""A panel takes its paper from the page's style, as its text does: both change at once with the theme."""
+
+PANEL_CSS = ":host { background: var(--panel-surface-color); border-radius: 8px; }"
+CAPTION_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+:host > div { display: flex; flex-wrap: wrap; align-items: baseline; column-gap: 10px; }
+h2 { margin: 0; font-size: 16px; font-weight: 700; line-height: 28px; letter-spacing: 0.009em; }
+p { margin: 0; font-size: 14px; line-height: 20px; }
+p:empty { display: none; }
+"""
+
+BESIDE_CSS = """
+:host { display: grid !important; grid-template-columns: minmax(0, 7fr) minmax(0, 5fr); gap: 8px; }
+@media (max-width: 1199px) { :host { grid-template-columns: minmax(0, 1fr); } }
+"""
+"""Two panels side by side, or below each other where there is no room."""
+
+FITTING_CSS = """
+:host { display: grid !important; grid-template-columns: repeat(auto-fit, minmax(min(420px, 100%), 1fr)); }
+"""
+"""As many figures side by side as there is room for."""
 
 
 def _figure_css(height):
@@ -227,8 +254,8 @@ def _figure_css(height):
     return f":host {{ flex: none !important; height: {height} !important; {icons} }}"
 
 
-TALL = _figure_css("max(300px, calc(53vh - 150px))")
-LOW = _figure_css("max(250px, calc(47vh - 165px))")
+TALL = _figure_css("max(340px, calc(53vh - 150px))")
+LOW = _figure_css("max(250px, calc(47vh - 190px))")
 MEDIUM = _figure_css("300px")
 HIGH = _figure_css("440px")
 SHORT = _figure_css("180px")
@@ -257,7 +284,12 @@ _TABLE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); overflow-x: auto; }}
 table {{ border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }}
 caption {{ position: absolute; clip-path: inset(50%); white-space: nowrap; }}
-th, td {{ padding: 1px 10px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
+th, td {{ padding: 1px 8px; text-align: right; border-bottom: 1px solid {PRESET_GHOST}40; }}
+@media (max-width: {NARROW_WINDOW}px) {{
+    table {{ font-size: 13.5px; }}
+    th, td {{ padding: 1px 4px; }}
+    input {{ max-width: 50px; }}
+}}
 th {{ font-weight: 600; }}
 td {{ white-space: nowrap; }}
 thead th {{ vertical-align: bottom; }}
@@ -271,8 +303,10 @@ BAND_GRID_CSS = f"""
 thead th {{ border-bottom: none; }}
 thead tr + tr th {{ font-weight: 400; border-bottom: 1px solid {PRESET_GHOST}40; }}
 thead svg {{ display: block; margin: 0 0 2px auto; }}
+tbody th, thead tr:first-child th:first-child {{ position: sticky; left: 0; }}
+tbody th, thead tr:first-child th:first-child {{ background: var(--panel-surface-color); }}
 input {{
-    width: 76px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
+    width: 64px; padding: 1px 6px; font: inherit; text-align: right; color: inherit; background: transparent;
     border: 1px solid {PRESET_GHOST}; border-radius: 4px;
 }}
 input:focus {{ outline: 2px solid {THIS_DESIGN}; outline-offset: 0; }}
@@ -290,19 +324,172 @@ p {{ margin: 0; font-size: 16px; }}
 VERDICT_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
 p {{ margin: 0; font-size: 16px; }}
-ul {{ display: grid; grid-template-columns: max-content minmax(0, max-content) 1fr; gap: 4px 12px; }}
-ul {{ list-style: none; margin: 0; padding: 0; }}
+ul {{ display: grid; grid-template-columns: max-content minmax(0, auto) max-content; }}
+ul {{ gap: 4px 12px; justify-content: start; list-style: none; margin: 0; padding: 0; }}
 li {{ display: contents; font-size: 22px; line-height: 1.3; }}
+@media (max-width: {NARROW_WINDOW}px) {{ li {{ font-size: 17px; }} }}
 li svg {{ align-self: center; }}
 .name {{ overflow-wrap: anywhere; }}
+span:last-child {{ white-space: nowrap; }}
 .complies {{ color: {COMPLIES}; font-weight: 700; }}
 .fails {{ color: {FAILS}; font-weight: 700; }}
 """
+
+QUANTITIES_CSS = f"""
+:host {{
+    font-family: var(--bokeh-base-font); font-size: 15px; color: var(--panel-on-background-color);
+    --accent: var(--panel-primary-color);
+    --ink: var(--panel-on-background-color);
+    --faint: color-mix(in srgb, var(--ink) 62%, transparent);
+    --line: color-mix(in srgb, var(--ink) 28%, transparent);
+}}
+.panel {{ padding: 8px 12px 12px 16px; }}
+[hidden] {{ display: none !important; }}
+button, input, select {{ font: inherit; color: inherit; }}
+:focus-visible {{ outline: 2px solid var(--accent); outline-offset: 2px; }}
+summary {{
+    display: flex; justify-content: space-between; align-items: center;
+    margin-top: 10px; padding: 2px 0; font-size: 14px; font-weight: 700; letter-spacing: 0.02em;
+    cursor: pointer;
+}}
+summary::-webkit-details-marker {{ display: none; }}
+summary::after {{
+    content: ""; width: 6px; height: 6px; margin: 0 5px 3px 0; opacity: 0.55;
+    border: solid currentColor; border-width: 0 2px 2px 0; transform: rotate(45deg);
+}}
+details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3px; }}
+
+.quantity {{ display: grid; grid-template-columns: 1fr 104px; column-gap: 10px; align-items: center; }}
+.quantity {{ margin-top: 4px; }}
+.name {{ grid-column: 1; display: flex; align-items: center; gap: 6px; line-height: 22px; }}
+.label {{ color: var(--faint); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }}
+.help {{
+    flex: none; width: 16px; height: 16px; padding: 0; font-size: 11px; line-height: 14px; text-align: center;
+    border: 1px solid currentColor; border-radius: 50%; background: none; opacity: 0.35; cursor: pointer;
+}}
+.help:hover, .help:focus-visible, .help[aria-expanded="true"] {{ opacity: 1; }}
+.track {{ grid-column: 1; position: relative; height: 22px; }}
+.scale {{ position: absolute; inset: 0 7px; }}
+.rail, .fill {{ position: absolute; top: 10px; height: 2px; border-radius: 1px; background: var(--accent); }}
+.rail {{ left: -1px; right: -1px; opacity: 0.45; }}
+.fill {{ left: -1px; }}
+.mark {{
+    position: absolute; top: 6px; width: 3px; height: 10px; margin-left: -1px; border-radius: 1px;
+    background: {PRESET_GHOST};
+}}
+.track input {{
+    appearance: none; position: absolute; inset: 0; width: 100%; height: 100%; margin: 0;
+    background: none; cursor: pointer; touch-action: pan-y;
+}}
+.track input:focus-visible {{ outline: none; }}
+.track input::-webkit-slider-thumb {{
+    appearance: none; width: 14px; height: 14px; border: none; border-radius: 50%; background: var(--accent);
+    transition: box-shadow 0.12s;
+}}
+.track input::-moz-range-thumb {{
+    width: 14px; height: 14px; border: none; border-radius: 50%; background: var(--accent);
+}}
+.track input:hover::-webkit-slider-thumb {{
+    box-shadow: 0 0 0 6px color-mix(in srgb, var(--accent) 18%, transparent);
+}}
+.track input:active::-webkit-slider-thumb, .track input:focus-visible::-webkit-slider-thumb {{
+    box-shadow: 0 0 0 8px color-mix(in srgb, var(--accent) 30%, transparent);
+}}
+.track input:focus-visible::-moz-range-thumb {{
+    box-shadow: 0 0 0 8px color-mix(in srgb, var(--accent) 30%, transparent);
+}}
+.stretches {{
+    position: absolute; inset: 7px -1px; border: 1px solid {FAILS}; border-radius: 2px;
+    background: repeating-linear-gradient(135deg, {FAILS}a0 0 1.5px, var(--panel-background-color) 1.5px 6px);
+}}
+.stretch {{ position: absolute; top: -1px; bottom: -1px; background: {COMPLIES}; }}
+.stretch.begins::before, .stretch.ends::after {{
+    content: ""; position: absolute; top: -4px; bottom: -4px; width: 2px; background: {COMPLIES};
+}}
+.stretch.begins::before {{ left: 0; }}
+.stretch.ends::after {{ right: 0; }}
+.edges {{ grid-column: 1; position: relative; height: 20px; margin: 0 7px; }}
+.edge {{
+    position: absolute; transform: translateX(-50%); padding: 0 5px; font-size: 13px; line-height: 17px;
+    border: 1px solid {COMPLIES}; border-radius: 9px; background: var(--panel-background-color);
+    cursor: pointer;
+    font-variant-numeric: tabular-nums;
+}}
+.edge:hover {{ background: color-mix(in srgb, {COMPLIES} 25%, var(--panel-background-color)); }}
+.box {{
+    grid-area: 1 / 2 / span 2; display: flex; align-items: baseline; box-sizing: border-box; height: 34px;
+    border: 1px solid var(--line); border-radius: 4px;
+}}
+.box:hover {{ border-color: var(--ink); }}
+.box:focus-within {{ border-color: var(--accent); box-shadow: inset 0 0 0 1px var(--accent); }}
+.box:has([aria-invalid]) {{ border-color: {FAILS}; box-shadow: inset 0 0 0 1px {FAILS}; }}
+.box input {{
+    flex: 1; min-width: 0; height: 100%; box-sizing: border-box; padding: 0 4px 0 6px; font-size: 16px;
+    text-align: right; font-variant-numeric: tabular-nums; border: none; outline: none; background: none;
+}}
+.unit {{ padding-right: 7px; font-size: 13px; color: var(--faint); }}
+.unit:empty {{ padding-right: 3px; }}
+.words, .advice {{ grid-column: 1 / -1; margin: 2px 0 4px 0; line-height: 1.35; overflow-wrap: anywhere; }}
+.words {{ font-size: 14px; }}
+.advice {{ font-size: 14px; font-weight: 500; color: {FAILS}; }}
+.advice:empty {{ display: none; }}
+.chip {{
+    grid-column: 1 / -1; justify-self: start; max-width: 100%; margin: 2px 0 4px 0; padding: 3px 12px;
+    text-align: left; border: 1px solid var(--accent); border-radius: 14px; background: none; cursor: pointer;
+}}
+.chip:hover {{ background: color-mix(in srgb, var(--accent) 15%, transparent); }}
+.disabled .label, .disabled .box, .disabled .track {{ opacity: 0.45; }}
+.disabled .track input {{ cursor: default; }}
+.disabled .box {{ pointer-events: none; }}
+
+.choice {{ position: relative; margin: 10px 0 4px 0; }}
+.choice .over {{
+    position: absolute; top: -8px; left: 8px; padding: 0 5px; font-size: 12.5px; line-height: 16px;
+    background: var(--panel-background-color);
+}}
+select {{
+    appearance: none; box-sizing: border-box; width: 100%; height: 38px; padding: 0 28px 0 10px;
+    border: 1px solid var(--line);
+    border-radius: 4px; background: no-repeat linear-gradient(45deg, transparent 50%, currentColor 50%),
+        no-repeat linear-gradient(135deg, currentColor 50%, transparent 50%);
+    background-position: right 14px center, right 8px center; background-size: 6px 6px; cursor: pointer;
+}}
+select:hover {{ border-color: var(--ink); }}
+option {{ color: var(--ink); background: var(--panel-background-color); }}
+.departure {{ display: flex; justify-content: space-between; align-items: center; min-height: 30px; }}
+.modified {{ font-weight: 500; }}
+.back {{
+    padding: 4px 8px; margin-right: -8px; font-size: 14px; font-weight: 500; color: var(--accent);
+    border: none; border-radius: 4px; background: none; cursor: pointer;
+}}
+.back:hover {{ background: color-mix(in srgb, var(--accent) 10%, transparent); }}
+.back:disabled {{ color: var(--ink); opacity: 0.35; cursor: default; background: none; }}
+.switch {{ display: flex; align-items: center; gap: 8px; margin: 4px 0 2px 0; font-size: 16px; }}
+.switch {{ cursor: pointer; }}
+.switch input[role] {{
+    appearance: none; flex: none; position: relative; width: 32px; height: 16px; margin: 0;
+    border-radius: 8px;
+    background: {PRESET_GHOST}; cursor: pointer; transition: background 0.15s;
+}}
+.switch input[role]::before {{
+    content: ""; position: absolute; top: 2px; left: 2px; width: 12px; height: 12px; border-radius: 50%;
+    background: white; transition: left 0.15s;
+}}
+.switch input[role]:checked {{ background: var(--accent); }}
+.switch input[role]:checked::before {{ left: 18px; }}
+"""
+"""Where a design complies is told by colour, by hatching, and by the marks at the edges."""
 
 MESSAGE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); }}
 div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS}; }}
 div[role=status] {{ font-weight: 400; color: var(--panel-on-background-color); }}
+"""
+
+WARNING_CSS = f"""
+:host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
+[role="alert"] {{ font-size: 15px; line-height: 1.4; padding-left: 12px; }}
+[role="alert"] {{ border-left: 4px solid {SPECIFICATION}; }}
 """
 
 PROSE_WIDTH = 900
@@ -313,8 +500,15 @@ table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 4px 16px 4px 0; font-size: 15px; }
 """
 EQUATION_CSS = """
-:host { color: var(--panel-on-background-color); font-size: 16px; overflow-x: auto; }
+.katex .katex-html { display: none; }
+.katex .katex-mathml { position: static; clip: auto; clip-path: none; }
+.katex .katex-mathml { width: auto; height: auto; overflow: visible; }
+math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math", "DejaVu Math TeX Gyre", math; }
+math { font-size: 17px; }
+.katex-display { margin: 12px 0; overflow: auto hidden; }
+.katex-display math { font-size: 19px; }
 """
+"""Formulas as the browser sets them (MathML): KaTeX's own setting needs fonts that nobody here serves."""
 
 SLOPES_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }

@@ -59,7 +59,7 @@ def test_a_wheel_holds_all_code_and_all_texts(wheel):
         file.relative_to(ROOT).as_posix()
         for package in ("trackig_core", "dashboard")
         for file in (ROOT / package).rglob("*")
-        if file.suffix in (".py", ".csv", ".html", ".js") or file.name == "py.typed"
+        if file.suffix in (".py", ".csv", ".html", ".js", ".toml") or file.name == "py.typed"
     }
     texts = {
         "trackig_assets/" + file.relative_to(ROOT / "assets").as_posix()

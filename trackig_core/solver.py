@@ -13,6 +13,7 @@ from trackig_core.bands import ONE_THIRD_OCTAVES, WIDEST, chosen_bands
 from trackig_core.frequency_domain import batch_kernels, floquet_waves
 from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.frequency_domain.convergence import time_step_errors
+from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
 from trackig_core.frequency_domain.refinement import banded_spectrum, gain_of, stiff_spectrum
 from trackig_core.frequency_domain.track_model import DAMPINGS, Track, TrackModel, track_model
@@ -57,6 +58,7 @@ def solve(
     summation: str = "energy",
     damping: str = "viscoelastic",
     bands: str = "one-third-octave",
+    rail: str = "euler",
     progress: Callable[[float], object] | None = None,
     cancelled: Callable[[], object] | None = None,
 ) -> Solution:
@@ -84,6 +86,9 @@ def solve(
     bands : str
         ``"one-third-octave"`` (5 Hz to 500 Hz, the paper's), ``"octave"`` (8 Hz to 250 Hz) or, with fidelity
         ``"exact"`` alone, ``"wide one-third-octave"`` and ``"wide octave"`` (1 Hz to 1 kHz).
+    rail : str
+        ``"euler"`` (the rail bends) or, with fidelity ``"exact"`` alone, ``"timoshenko"`` (it also shears and
+        has rotary inertia; natural frequencies stay those of the rail that bends).
     progress : callable, optional
         Called now and then with the fraction done, 0 to 1, from the calling thread; not when exact.
     cancelled : callable, optional
@@ -105,27 +110,22 @@ def solve(
     DesignError
         If ``design`` is no design, or its exact solution has no bound for want of any loss.
     ValueError
-        If a choice is not one of the above, the reference has no meaning for the design, or hysteretic
-        damping or wide bands are to be stepped in time.
+        If a choice is not one of the above, the reference has no meaning for the design, or a choice is for
+        fidelity ``"exact"`` alone.
     """
     check_choice("damping", damping, DAMPINGS)
     model = track_model(design, damping)
     check_choice("fidelity", fidelity, FIDELITIES)
     check_reference(model.design, own_reference(model.design) if reference is None else reference)
     check_choice("summation", summation, SUMMATIONS)
-    in_bands = chosen_bands(bands)
+    in_bands, lattice = chosen_bands(bands), Lattice(rail=rail)
     wide = in_bands.last > ONE_THIRD_OCTAVES.last
-    if wide and fidelity != "exact":
-        raise ValueError(f"bands = {bands!r} reach beyond a run's record: give fidelity 'exact'")
+    if fidelity != "exact":
+        _check_stepped(model, bands if wide else None, lattice)
     grid: Grid | None = None
     history: TimeHistory | None = None
-    if fidelity != "exact" and not model.causal:
-        raise ValueError(
-            "damping = 'hysteretic' is not causal and cannot be stepped in time, as fidelity "
-            f"{fidelity!r} does: give fidelity 'exact', or damping 'viscoelastic'"
-        )
     if fidelity == "exact":
-        spectrum = banded_spectrum(model, bands=WIDEST if wide else ONE_THIRD_OCTAVES)
+        spectrum = banded_spectrum(model, lattice, bands=WIDEST if wide else ONE_THIRD_OCTAVES)
         notes = _sharpness_notes(spectrum)
     elif fidelity == "live":
         chosen = adaptive_grid.plan(model)
@@ -211,6 +211,19 @@ def _share(
 ) -> Callable[[float], object] | None:
     """Return what reports the progress of one of several runs as that of all."""
     return None if progress is None else lambda fraction: progress((done + fraction) / runs)
+
+
+def _check_stepped(model: TrackModel, wide_bands: str | None, lattice: Lattice) -> None:
+    """Raise a ValueError that names what cannot be stepped in time."""
+    wrong = None
+    if not model.causal:
+        wrong = "damping = 'hysteretic' is not causal and cannot be stepped in time"
+    elif lattice != INFINITE:
+        wrong = f"rail = {lattice.rail!r} is not stepped in time"
+    elif wide_bands is not None:
+        wrong = f"bands = {wide_bands!r} reach beyond a run's record"
+    if wrong is not None:
+        raise ValueError(f"{wrong}: give fidelity 'exact'")
 
 
 def _observed(

@@ -31,20 +31,16 @@ MOST = {
 ACCEPTED = {"study": ".toml", "specification": ".csv,.txt,.tsv", "source": ".csv,.txt,.tsv"}
 """What the browser's dialog offers, by what a file is opened for."""
 
-PLOTS = {
-    "insertion_gain_figure": "explore",
-    "force_figure": "explore",
-}
-"""Tab in which each plot is that can be saved, by the plot's name."""
-
 REST = 0.3
 """Seconds without a change after which the address bar follows."""
 
 COPIED = "The link is copied: it holds the design, the pinned designs and the view."
 NOT_COPIED = "The browser does not let the page copy. Copy the address from the address bar: it is the link."
-NOT_DRAWN = "The plot could not be drawn. Open its tab, then save it again."
 HANDLING_FAILED = "Something went wrong; the server's log has the details."
 NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
+
+LASTING = {"success": 3000, "warning": 8000, "error": 8000}
+"""How long a notification of each kind stays [ms]."""
 
 log = logging.getLogger(__name__)
 
@@ -91,7 +87,6 @@ class Exchange(Scripted):
         )
         self._snapshot = snapshot
         self._openers = {}
-        self._left = None
         self._waiting = False
         self._changed = False
         self._note()
@@ -118,19 +113,19 @@ class Exchange(Scripted):
         """Hand the bytes of whatever file is opened for a purpose, one of :data:`MOST`, to a callback."""
         self._openers[purpose] = callback
 
-    def save(self, name, text, kind="text/csv"):
-        """Have the browser save a text as a file.
+    def save(self, name, data, kind="text/csv"):
+        """Have the browser save a file.
 
         Parameters
         ----------
         name : str
             Name of the file.
-        text : str
+        data : str or bytes
             What it holds.
         kind : str
             Its media type.
         """
-        self._send_msg({"kind": "save", "name": name, "text": text, "type": kind})
+        self._send_msg({"kind": "save", "name": name, "data": data, "type": kind})
 
     def introduce(self):
         """Have the browser answer, now that a part of the page was added.
@@ -148,12 +143,6 @@ class Exchange(Scripted):
                 self._restore(data)
             case {"kind": "copied", "data": bool(copied)}:
                 notify("success", COPIED) if copied else notify("warning", NOT_COPIED)
-            case {"kind": "show", "data": str(name)} if name in PLOTS:
-                self._left, self._snapshot.tab = self._snapshot.tab, PLOTS[name]
-            case {"kind": "back"} if self._left is not None:
-                self._left, self._snapshot.tab = None, self._left
-            case {"kind": "not_drawn"}:
-                notify("warning", NOT_DRAWN)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
                 self._openers[purpose](data)
 
@@ -170,19 +159,24 @@ class Exchange(Scripted):
 
 
 def notify(kind, words):
-    """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``."""
-    if pn.state.notifications is not None:
-        getattr(pn.state.notifications, kind)(words, duration=8000)
+    """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``.
+
+    It stands in the header, where it covers no control and no figure. A success takes away what was said
+    before it.
+    """
+    area = pn.state.notifications
+    if area is None:
+        return
+    area.position = "top-center"
+    if kind == "success":
+        for earlier in [*area.notifications]:
+            earlier.destroy()
+    getattr(area, kind)(words, duration=LASTING[kind])
 
 
 def opening(purpose):
     """Return what a button does in the browser to let the user choose a file for a purpose."""
     return f"window.trackig.choose({json.dumps(purpose)}, {json.dumps(ACCEPTED[purpose])}, {MOST[purpose]})"
-
-
-def saving(plot, form, name):
-    """Return what a button does in the browser to save a plot, as ``"png"`` or ``"svg"``, as a file."""
-    return f"window.trackig.savePlot({json.dumps(plot)}, {json.dumps(form)}, {json.dumps(name)})"
 
 
 COPYING = "window.trackig.copyLink()"

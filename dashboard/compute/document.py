@@ -72,6 +72,40 @@ def on_next_tick(document, change):
         document.add_next_tick_callback(partial(change, document))
 
 
+def in_turns(steps, on_error):
+    """Do work of the current session step by step, each step on a turn of its own once the page has loaded.
+
+    Between them the server does what other sessions wait for. Without a session, as in tests, all is done at
+    once.
+
+    Parameters
+    ----------
+    steps : iterator
+        Does a step whenever it is asked for the next item.
+    on_error : callable
+        Called with the exception of a step that failed; what follows it in the iterator is still done.
+    """
+    document = pn.state.curdoc
+    if document is None or document.session_context is None:
+        for _ in steps:
+            pass
+        return
+    turn = partial(_take_turn, document, steps, on_error)
+    begin = partial(document.add_next_tick_callback, turn)
+    begin() if pn.state.loaded else pn.state.onload(begin)
+
+
+def _take_turn(document, steps, on_error):
+    try:
+        with one_message(document):
+            next(steps)
+    except StopIteration:
+        return
+    except Exception as error:
+        on_error(error)
+    document.add_next_tick_callback(partial(_take_turn, document, steps, on_error))
+
+
 @contextlib.contextmanager
 def one_message(document):
     """Send all that changes within to the browser in one message, so that it is drawn in one frame.

@@ -75,6 +75,11 @@ class AxisEnds:
         self.model = Range1d(*ends)
         self._home = ends
 
+    @property
+    def home(self):
+        """The ends of the axis as it is while nobody zooms, a tuple."""
+        return self._home
+
     def show(self, low, high, step):
         """Make sure that the axis shows what lies from ``low`` to ``high``."""
         home = settled_range(self._home, low, high, step)
@@ -106,6 +111,16 @@ def show_bands(plot, every=1):
     plot.js_on_change("inner_width", CustomJS(args=everything, code=LABEL_AS_FIT))
     plot.xaxis.major_label_overrides = dict(zip(tig.BAND_CENTRES, tig.BAND_LABELS, strict=True))
     plot.xgrid.visible = False
+
+
+TICKS = [factor * 10.0**power for power in range(-2, 4) for factor in (1, 2, 5)]
+"""Ticks of a logarithmic axis of any input, or of frequencies."""
+
+
+def show_one_two_five(axis):
+    """Give a logarithmic axis ticks at 1, 2 and 5 times the powers of ten, as plain numbers."""
+    axis.ticker = FixedTicker(ticks=TICKS)
+    axis.major_label_overrides = {tick: f"{tick:g}" for tick in TICKS}
 
 
 def zero_line(dimension="width"):

@@ -1,66 +1,150 @@
-"""The picture of differences between designs, band by band.
+"""Pictures with one curve per design, band by band: gain, difference from a base, received level.
 
-The base is the zero line, and every design has the colour and dash that it has elsewhere.
+Every design has the colour and dash that it has elsewhere.
 """
 
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJSHover, GlyphRenderer, HoverTool
 
 from dashboard import theme
-from dashboard.figures.axes import LEVEL_STEP, AxisEnds, show_bands
+from dashboard.figures.axes import LEVEL_ROOM, LEVEL_STEP, AxisEnds, show_bands
 from dashboard.figures.insertion_gain import ALONE_TOOLTIPS, NO_LEVELS, PIN_HOVER, pin_columns
-from dashboard.figures.legends import PinnedLines, dress_legend, legend_entry, update_legend
+from dashboard.figures.legends import Legend, PinnedLines, pinned_entry, with_legend
 from dashboard.figures.overlays import band_overlay, rendered
+from dashboard.figures.swatches import swatch_svg
 
 LEAST_REACH = 4.0
 """What the axis of differences shows at least on either side [dB]."""
 
-CURRENT = f"pin_{theme.MOST_PINNED}"
-"""Column of the current design among the differences, behind those of the pins."""
+LEAST_SPAN = 10.0
+"""What an axis of levels shows at least [dB]."""
 
-LOOKS = {CURRENT: {"line_color": theme.THIS_DESIGN, "line_width": theme.LINE_WIDTH}}
-"""Look of the curve that is always there; those of pinned designs are made when they are first needed."""
+CURRENT, REFERENCE = (f"pin_{theme.MOST_PINNED + place}" for place in (0, 1))
+"""Columns of the current design and of the reference track, behind those of the pins."""
+
+LOOKS = {
+    REFERENCE: {
+        "line_color": theme.PRESET_GHOST,
+        "line_width": theme.THIN_LINE_WIDTH,
+        "line_dash": theme.SECOND_DASH,
+    },
+    CURRENT: {"line_color": theme.THIS_DESIGN, "line_width": theme.LINE_WIDTH},
+}
+"""Looks of the curves that are always there; those of pinned designs are made when they are first needed."""
+
+THIS_DESIGN = ("this design", swatch_svg(theme.THIS_DESIGN))
+REFERENCE_TRACK = ("reference track", swatch_svg(theme.PRESET_GHOST, theme.SECOND_DASH))
+"""What the legend says beside the names of pinned designs."""
 
 
-class BaseDifferenceFigure:
-    """Insertion gain less that of a base, for the current design and for pinned ones.
+class DesignsFigure:
+    """A curve per design over the bands.
+
+    Parameters
+    ----------
+    name : str
+        Name of the source; the figure's is this without its last letter, an s, and ``_figure``.
+    label : str
+        What the value axis is called.
+    aria_label : str
+        What screen readers say of the figure.
+    ends : tuple of float
+        What the value axis shows at first [dB].
 
     Attributes
     ----------
     model : bokeh.plotting.figure
         The figure.
-    differences : bokeh.models.ColumnDataSource
-        Named ``pin_differences``: per band its ``label``, its ``centre`` [Hz], the differences of pins
-        ``pin_0`` to ``pin_7`` and, as ``pin_8``, that of the current design [dB]; NaN where there is none.
+    legend : Legend
+        What is drawn, in words.
+    layout : bokeh.models.Column
+        The figure, and its legend below it.
+    curves : bokeh.models.ColumnDataSource
+        Per band its ``label``, its ``centre`` [Hz], the levels of pins ``pin_0`` to ``pin_7``, as ``pin_8``
+        those of the current design, as ``pin_9`` those of the reference track [dB]; NaN where there are none.
     """
 
-    def __init__(self):
-        self.differences = ColumnDataSource(name="pin_differences", data=_columns((), None))
-        self._ends = AxisEnds((-10.0, 10.0))
+    def __init__(self, name, label, aria_label, ends):
+        figure = f"{name.removesuffix('s')}_figure"
+        self.curves = ColumnDataSource(name=name, data=_columns([], None, None))
+        self._ends = AxisEnds(ends)
         self.model = rendered(
-            band_overlay(LOOKS, "dB re base"),
-            "Difference of insertion gain from the base per one-third-octave band",
-            name="pin_difference_figure",
+            band_overlay(LOOKS, label),
+            aria_label,
+            name=figure,
             y_range=self._ends.model,
             stylesheets=[theme.MEDIUM],
         )
         show_bands(self.model)
-        self._legend = self.model.legend[0]
-        dress_legend(self._legend)
-        (self._current,) = self.model.select({"type": GlyphRenderer})
-        self._current.data_source = self.differences
-        self._entry = legend_entry(self.model, "this design", self._current)
+        self.legend = Legend(figure)
+        self.layout = with_legend(self.model, self.legend)
+        self._reference, self._current = self.model.select({"type": GlyphRenderer})
+        self._reference.data_source = self._current.data_source = self.curves
         names = [f"pin_{place}" for place in range(theme.MOST_PINNED)]
-        sources = [self.differences] * theme.MOST_PINNED
-        self._pinned = PinnedLines(self.model, self._current, sources, "centre", names)
-        differences = CustomJSHover(args={"pins": self.differences}, code=PIN_HOVER)
+        self._pinned = PinnedLines(
+            self.model, self._current, [self.curves] * theme.MOST_PINNED, "centre", names
+        )
+        levels = CustomJSHover(args={"pins": self.curves}, code=PIN_HOVER)
         self._hover = HoverTool(
-            renderers=[self._current],
-            mode="vline",
-            tooltips=ALONE_TOOLTIPS,
-            formatters={"@centre": differences},
+            renderers=[self._current], mode="vline", tooltips=ALONE_TOOLTIPS, formatters={"@centre": levels}
         )
         self.model.add_tools(self._hover)
+
+    def name_axis(self, words):
+        """Say on the axis what is drawn."""
+        self.model.yaxis.axis_label = words
+
+    def _draw(self, results, levels, reference=None):
+        """Draw levels (21,) [dB] of results and of the reference track; return all that is drawn."""
+        pairs = list(zip(results, levels, strict=True))
+        pinned = [each for each, _ in pairs if each.key is not None]
+        of_pins = [each for result, each in pairs if result.key is not None]
+        current = next((each for result, each in pairs if result.key is None), None)
+        self.curves.data = _columns(of_pins, current, reference)
+        self._pinned.show(pinned)
+        self._current.visible = current is not None
+        self._reference.visible = reference is not None
+        own = [] if current is None else [THIS_DESIGN]
+        own += [] if reference is None else [REFERENCE_TRACK]
+        self.legend.show([*own, *map(pinned_entry, pinned)])
+        self._name_on_hover(pinned, current is not None)
+        return [each for each in (*of_pins, current, reference) if each is not None]
+
+    def _name_on_hover(self, pinned, with_current):
+        tooltips = [("this design", f"@centre{{{theme.MOST_PINNED}}}")] if with_current else []
+        tooltips += [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)]
+        self._hover.update(
+            renderers=[self._current] if with_current else self._pinned.lines[:1],
+            tooltips=ALONE_TOOLTIPS + tooltips,
+        )
+
+
+class GainsFigure(DesignsFigure):
+    """Insertion gain of the current design and of pinned ones."""
+
+    def __init__(self):
+        super().__init__(
+            "compared_gains",
+            "Insertion gain, dB",
+            "Insertion gain of the designs per one-third-octave band",
+            (-30.0, 20.0),
+        )
+
+    def show(self, results):
+        """Draw insertion gain of designs with a solution (DesignResult); the current one is the first."""
+        _span(self._ends, self._draw(results, [each.levels for each in results]))
+
+
+class BaseDifferenceFigure(DesignsFigure):
+    """Insertion gain less that of a base, for the current design and for pinned ones; the base is zero."""
+
+    def __init__(self):
+        super().__init__(
+            "pin_differences",
+            "dB re base",
+            "Difference of insertion gain from the base per one-third-octave band",
+            (-10.0, 10.0),
+        )
 
     def show(self, base, results):
         """Draw differences.
@@ -73,24 +157,47 @@ class BaseDifferenceFigure:
             Designs with a solution, the base not among them; the current design, if there, is the first.
         """
         results = () if base.levels is None else results
-        pinned = [each for each in results if each.key is not None]
-        differences = [each.levels - base.levels for each in pinned]
-        current = next((each.levels - base.levels for each in results if each.key is None), None)
-        self.differences.data = _columns(differences, current)
-        self._pinned.show(pinned)
-        self._current.visible = current is not None
-        own = [] if current is None else [self._entry]
-        update_legend(self._legend, [self._entry, *self._pinned.entries], own + self._pinned.shown_entries)
-        tooltips = [] if current is None else [("this design", f"@centre{{{theme.MOST_PINNED}}}")]
-        tooltips += [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)]
-        self._hover.update(
-            renderers=self._pinned.lines[:1] if current is None else [self._current],
-            tooltips=ALONE_TOOLTIPS + tooltips,
-        )
-        drawn = [*differences, *([] if current is None else [current])]
+        drawn = self._draw(results, [each.levels - base.levels for each in results])
         reach = max([LEAST_REACH, *(np.abs(each).max() for each in drawn)])
         self._ends.show(-reach, reach, LEVEL_STEP)
 
 
-def _columns(differences, current):
-    return {**pin_columns(differences), CURRENT: NO_LEVELS if current is None else current}
+class ReceivedLevelFigure(DesignsFigure):
+    """Level of a source per band, with the reference track and with every design."""
+
+    def __init__(self):
+        super().__init__(
+            "received_levels",
+            "Received level, dB",
+            "Level of the source with the designs per one-third-octave band",
+            (0.0, 100.0),
+        )
+
+    def show(self, source, results):
+        """Draw levels.
+
+        Parameters
+        ----------
+        source : trackig_core.SourceSpectrum
+            The source; bands that it does not give have no level.
+        results : sequence of DesignResult
+            Designs with a level; the current one is the first.
+        """
+        drawn = self._draw(results, [each.level.bands for each in results], source.levels)
+        _span(self._ends, drawn)
+
+
+def _span(ends, drawn):
+    """Let an axis show levels [dB], with a little room around them."""
+    seen = np.concatenate([*drawn, NO_LEVELS])
+    seen = seen[np.isfinite(seen)]
+    if seen.size:
+        low, high = seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM
+        ends.show(low, max(high, low + LEAST_SPAN), LEVEL_STEP)
+
+
+def _columns(pinned, current, reference):
+    """Return the columns of the source, NaN for levels (21,) [dB] that are missing."""
+    own = {CURRENT: current, REFERENCE: reference}
+    missing = {column: NO_LEVELS if levels is None else levels for column, levels in own.items()}
+    return {**pin_columns(pinned), **missing}

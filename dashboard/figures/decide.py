@@ -30,6 +30,7 @@ from dashboard.figures.axes import (
     blank_figure,
     dress,
     show_bands,
+    show_one_two_five,
     zero_line,
 )
 
@@ -41,9 +42,6 @@ CELL = 0.9
 
 LEAST_CHANGE = 0.1
 """What the scale of a heat map reaches at least on either side [dB]."""
-
-ROUND_NUMBERS = [factor * 10**power for power in range(-3, 5) for factor in (1, 2, 5)]
-"""Ticks of logarithmic axes."""
 
 MOST_DRAWN = 1000
 """Designs of a search that are drawn [-]: the front, and of the rest as many as fit."""
@@ -301,7 +299,7 @@ class MapFigure:
         dress(plot, f"{words} over {x_field.label} and {y_field.label}")
         for axis, field in ((plot.xaxis, x_field), (plot.yaxis, y_field)):
             if field.logarithmic:
-                axis.ticker = FixedTicker(ticks=ROUND_NUMBERS)
+                show_one_two_five(axis)
         colours = LinearColorMapper(
             palette=Viridis256, low=float(np.nanmin(values)), high=float(np.nanmax(values))
         )

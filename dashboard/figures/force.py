@@ -1,6 +1,7 @@
 """Force into the ground over time: the picture that follows the slider.
 
-Built once with Bokeh, then fed by assigning each data source's ``data``. s and kN.
+Built once with Bokeh, then fed by assigning each data source's ``data``. s and kN. The current design sets
+the scale: a pinned design that exceeds it is cut off at the frame, and the legend says how far it reaches.
 """
 
 import math
@@ -17,15 +18,10 @@ from bokeh.models import (
 )
 from tsdownsample import MinMaxDownsampler
 
-from dashboard import theme
+from dashboard import formats, theme
 from dashboard.figures.axes import AxisEnds, blank_figure
-from dashboard.figures.legends import (
-    PinnedLines,
-    are_the_same,
-    legend_entry,
-    new_legend,
-    update_legend,
-)
+from dashboard.figures.legends import Legend, PinnedLines, are_the_same, pinned_entry, with_legend
+from dashboard.figures.swatches import swatch_svg
 
 TIME_AXIS = (-0.005, 0.25)
 """What the time axis shows at first [s]; the rest of the record is a pan or a zoom away."""
@@ -104,6 +100,10 @@ class ForceFigure:
     ----------
     model : bokeh.plotting.figure
         The figure.
+    legend : Legend
+        What is drawn, in words.
+    layout : bokeh.models.Column
+        The figure, and its legend below it.
     samples : bokeh.models.ColumnDataSource
         Named ``force``: ``time`` [s], ``loaded_support`` and ``total`` [kN].
     pins : list of bokeh.models.ColumnDataSource
@@ -127,7 +127,9 @@ class ForceFigure:
             y_axis_label="Force into the ground, kN",
             stylesheets=[theme.LOW],
         )
-        self._summary, self._drawn = None, ()
+        self.legend = Legend("force_figure")
+        self.layout = with_legend(self.model, self.legend)
+        self._summary, self._drawn, self._reach = None, (), []
         self._count_time_as_zoom_asks()
         self._draw_forces()
         self.model.on_event(RangesUpdate, self._zoomed)
@@ -141,18 +143,13 @@ class ForceFigure:
 
     def _draw_forces(self):
         plot = self.model
-        self._legend = new_legend(plot, "top_right")
-        self._entries = [
-            self._draw_force("total", "all supports", theme.THIS_DESIGN, "solid"),
-            self._draw_force(
-                "loaded_support", "support under the wheel", theme.LOADED_TRACK, theme.SECOND_DASH
-            ),
-        ]
+        self._draw_force("total", *ALL_SUPPORTS)
+        self._draw_force("loaded_support", *UNDER_THE_WHEEL)
         self._pinned = PinnedLines(plot, plot.renderers[0], self.pins, "time", ["total"] * theme.MOST_PINNED)
-        update_legend(self._legend, self._entries, self._entries)
+        self._list_what_is_drawn()
 
     def _draw_force(self, column, words, colour, dash):
-        """Draw a force of the current design, and return its entry in the legend."""
+        """Draw a force of the current design."""
         plot = self.model
         line = plot.line(
             x="time",
@@ -160,7 +157,7 @@ class ForceFigure:
             source=self.samples,
             line_color=colour,
             line_width=theme.THIN_LINE_WIDTH,
-            line_dash=dash,
+            line_dash=list(dash),
         )
         time = CustomJSHover(args={"ends": plot.x_range}, code=TIME_HOVER)
         plot.add_tools(
@@ -172,7 +169,6 @@ class ForceFigure:
                 description=f"Values: {words}",
             )
         )
-        return legend_entry(plot, words, line)
 
     def show(self, current, pinned=()):
         """Draw the forces of the current design, and behind them the total force of pinned ones.
@@ -187,7 +183,6 @@ class ForceFigure:
         new = not are_the_same(pinned, self._drawn)
         self._summary, self._drawn = current.summary, pinned
         forces = [self._summary.total_force, self._summary.loaded_support_force]
-        forces += [each.summary.total_force for each in pinned]
         self._forces.show(
             *rounded_ends(min(each.min() for each in forces), max(each.max() for each in forces))
         )
@@ -196,8 +191,18 @@ class ForceFigure:
         if new:
             self._send_pinned(*ends)
             self._pinned.show(pinned)
-            entries = self._entries + self._pinned.entries
-            update_legend(self._legend, entries, self._entries + self._pinned.shown_entries)
+            totals = [each.summary.total_force for each in pinned]
+            self._reach = [(total.min(), total.max()) for total in totals]
+        self._list_what_is_drawn()
+
+    def _list_what_is_drawn(self):
+        """List what is drawn, and how far those reach that leave the frame."""
+        own = [(words, swatch_svg(colour, dash)) for words, colour, dash in (ALL_SUPPORTS, UNDER_THE_WHEEL)]
+        pinned = [
+            pinned_entry(each, formats.beyond_text(*reach, *self._forces.home))
+            for each, reach in zip(self._drawn, self._reach, strict=True)
+        ]
+        self.legend.show(own + pinned)
 
     def _zoomed(self, event):
         if self._summary is not None:
@@ -217,6 +222,11 @@ class ForceFigure:
         for source in self.pins[len(self._drawn) :]:
             if len(source.data["time"]):
                 source.data = {"time": [], "total": []}
+
+
+ALL_SUPPORTS = ("all supports", theme.THIS_DESIGN, ())
+UNDER_THE_WHEEL = ("support under the wheel", theme.LOADED_TRACK, tuple(theme.SECOND_DASH))
+"""Name, colour and dash of both forces of the current design."""
 
 
 def _in_view(time, forces, start, end):

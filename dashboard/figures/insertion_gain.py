@@ -32,12 +32,13 @@ from dashboard.figures.axes import (
 )
 from dashboard.figures.legends import (
     NO_LABEL,
+    Legend,
     PinnedLines,
     are_the_same,
-    legend_entry,
-    new_legend,
-    update_legend,
+    pinned_entry,
+    with_legend,
 )
+from dashboard.figures.swatches import excess_svg, limit_svg, swatch_svg
 from trackig_core.levels.specification import LEVEL_TOLERANCE
 
 LEAST_LEVELS = (-28.0, 18.0)
@@ -98,6 +99,10 @@ class InsertionGainFigure:
     ----------
     model : bokeh.plotting.figure
         The figure.
+    legend : Legend
+        What is drawn, in words.
+    layout : bokeh.models.Column
+        The figure, and its legend below it.
     bands : bokeh.models.ColumnDataSource
         Named ``insertion_gain``: per band its ``label``, ``centre``, ``left`` and ``right`` edge [Hz], the
         ``level`` of the design and that of its ``preset`` [dB], NaN when there is none to compare with.
@@ -113,7 +118,7 @@ class InsertionGainFigure:
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
         self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
-        self._drawn, self._limited = (), False
+        self._drawn, self._limited, self._limit_drawn = (), False, False
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
             name="insertion_gain_figure",
@@ -124,6 +129,8 @@ class InsertionGainFigure:
             y_axis_label="Insertion gain, dB",
             stylesheets=[theme.TALL],
         )
+        self.legend = Legend("insertion_gain_figure")
+        self.layout = with_legend(self.model, self.legend)
         self._draw_bands()
         self._loaded_track = _Marker(self.model, "loaded_track", "loaded track", theme.LOADED_TRACK)
         self._coupled_block = _Marker(self.model, "coupled_block", "coupled block", theme.COUPLED_BLOCK)
@@ -132,7 +139,6 @@ class InsertionGainFigure:
         plot = self.model
         show_bands(plot)
         plot.add_layout(zero_line())
-        self._legend = new_legend(plot, "bottom_left")
         self._fill = plot.quad(
             left="left",
             right="right",
@@ -160,10 +166,6 @@ class InsertionGainFigure:
             renderers=[self._dots], mode="vline", tooltips=TOOLTIPS, formatters={"@centre": pinned}
         )
         plot.add_tools(self._hover)
-        self._entries = {
-            "this design": legend_entry(plot, "this design", self._line, self._dots),
-            "as in Table 1": legend_entry(plot, "as in Table 1", self._ghost),
-        }
 
     def _draw_limit(self):
         """Draw the limit and what exceeds it, behind all curves; without a limit there is nothing to draw."""
@@ -199,8 +201,7 @@ class InsertionGainFigure:
         ]
         behind = plot.renderers.index(self._fill) + 1
         plot.renderers[behind:behind] = parts
-        self._entries["required maximum"] = legend_entry(plot, "required maximum", parts[0])
-        self._entries["exceeds it"] = legend_entry(plot, "exceeds it", parts[2])
+        self._limit_drawn = True
 
     def name_axis(self, words):
         """Say on the axis which insertion gain is drawn."""
@@ -232,7 +233,7 @@ class InsertionGainFigure:
         self._coupled_block.show(None if alone else natural.coupled_block)
         self._show_pinned(pinned)
         self._name_on_hover(pinned, alone)
-        self._list_what_is_drawn()
+        self._list_what_is_drawn(pinned)
         seen = [
             NO_LEVELS if alone else levels,
             preset,
@@ -246,7 +247,7 @@ class InsertionGainFigure:
     def _show_limit(self, limit, levels):
         if limit is None and not self._limited:
             return
-        if limit is not None and "required maximum" not in self._entries:
+        if limit is not None and not self._limit_drawn:
             self._draw_limit()
         self._limited = limit is not None
         self.limit.data = _limit_columns(NO_LEVELS if limit is None else limit, levels)
@@ -266,18 +267,21 @@ class InsertionGainFigure:
             tooltips=tooltips + [(each.name, f"@centre{{{place}}}") for place, each in enumerate(pinned)],
         )
 
-    def _list_what_is_drawn(self):
+    def _list_what_is_drawn(self, pinned):
         data, limit = self.bands.data, self.limit.data
-        drawn = {
-            "this design": self._line.visible,
-            "as in Table 1": np.isfinite(data["preset"]).any(),
-            "required maximum": np.isfinite(limit["limit"]).any(),
-            "exceeds it": np.isfinite(limit["failing"]).any(),
-        }
-        shown = [entry for words, entry in self._entries.items() if drawn[words]]
-        entries = [*self._entries.values(), *self._pinned.entries]
-        update_legend(self._legend, entries, shown + self._pinned.shown_entries)
+        drawn = [
+            (self._line.visible, THIS_DESIGN),
+            (np.isfinite(data["preset"]).any(), AS_IN_TABLE_1),
+            (np.isfinite(limit["limit"]).any(), REQUIRED),
+            (np.isfinite(limit["failing"]).any(), EXCEEDS),
+        ]
+        self.legend.show([*(entry for there, entry in drawn if there), *map(pinned_entry, pinned)])
 
+
+THIS_DESIGN = ("this design", swatch_svg(theme.THIS_DESIGN, dot=True))
+AS_IN_TABLE_1 = ("as in Table 1", swatch_svg(theme.PRESET_GHOST, theme.SECOND_DASH))
+REQUIRED, EXCEEDS = ("required maximum", limit_svg()), ("exceeds it", excess_svg())
+"""What the legend says beside the names of pinned designs."""
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
 

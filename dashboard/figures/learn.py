@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from bokeh.core.properties import value
 from bokeh.events import Pan, Tap
-from bokeh.models import ColumnDataSource, CustomJS, FixedTicker, HoverTool, Range1d, Span
+from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d, Span
 
 import trackig_core as tig
 from dashboard import formats, theme
@@ -21,17 +21,16 @@ from dashboard.figures.axes import (
     blank_figure,
     nice_step,
     show_bands,
+    show_one_two_five,
     zero_line,
 )
+from dashboard.figures.legends import legend_above
 
 LEAST_LEVELS = (-30.0, 15.0)
 """What a level axis shows at least [dB]."""
 
 DEEPEST = -60.0
 """Level below which an axis does not follow a curve [dB]: a false dip may be deep."""
-
-TICKS = [factor * 10.0**power for power in range(-2, 4) for factor in (1, 2, 5)]
-"""Ticks of a logarithmic axis of any slider, or of frequencies."""
 
 
 @dataclass(frozen=True)
@@ -147,13 +146,6 @@ def draw_curve(plot, source, x, curve):
     )
 
 
-def legend_above(plot, columns=2):
-    """Put the legend above the frame, where it covers no curve."""
-    legend = plot.legend[0]
-    legend.update(orientation="horizontal", ncols=columns, border_line_color=None, background_fill_alpha=0.0)
-    plot.add_layout(legend, "above")
-
-
 class PickFigure(BandsFigure):
     """Insertion gain with a cursor that is dragged, or put by a click, to a frequency.
 
@@ -223,8 +215,7 @@ class SweepFigure:
             stylesheets=[theme.HIGH],
         )
         for axis in (self.model.xaxis[0], self.model.yaxis[0]):
-            axis.ticker = FixedTicker(ticks=TICKS)
-            axis.major_label_overrides = {tick: f"{tick:g}" for tick in TICKS}
+            show_one_two_five(axis)
         self._now = Span(
             dimension="height", line_color=theme.PRESET_GHOST, line_width=1, name="present_value"
         )

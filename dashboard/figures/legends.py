@@ -1,39 +1,82 @@
-"""Legends, and the lines of pinned designs that they list."""
+"""Legends outside the axes, and the lines of pinned designs that they list."""
 
-import math
+import html
 import operator
 
-from bokeh.core.properties import value
-from bokeh.models import (
-    ColumnDataSource,
-    GlyphRenderer,
-    Legend,
-    LegendItem,
-    Line,
-)
+from bokeh.layouts import column
+from bokeh.models import Div, GlyphRenderer, Line
 
-from dashboard import formats, theme
-from dashboard.figures.axes import keep
+from dashboard import theme
+from dashboard.figures.swatches import swatch_svg
 
 NO_LABEL = "\N{NO-BREAK SPACE}"
 """Keeps a label's row free, so that the frame stays put."""
 
 
-def legend_entry(plot, words, *renderers):
-    """Return what a legend says of curves.
+class Legend:
+    """What a figure draws, in words below it: text of the page, which wraps and covers no curve.
 
-    A legend is made anew whenever anything changes that it refers to, curves' data included; at each frame
-    of a drag that would cost as much as drawing the figure. So it refers to twins of the curves: the same
-    glyphs, and so the same colours and dashes, of a source that stays as it is.
+    A legend of Bokeh's lies in the canvas, takes its height from the curves, wraps no name, and is made anew
+    whenever a curve's data change.
+
+    Parameters
+    ----------
+    figure : str
+        Name of the figure that it belongs to.
+
+    Attributes
+    ----------
+    model : bokeh.models.Div
+        Named after the figure, with ``_legend`` behind it.
+    listed : tuple of str
+        What it says, in order.
     """
-    columns = {column: [math.nan] for each in renderers for column in each.data_source.column_names}
-    still = ColumnDataSource(data=columns)
-    twins = [plot.add_glyph(still, each.glyph) for each in renderers]
-    return LegendItem(label=value(words), renderers=twins)
+
+    def __init__(self, figure):
+        self.model = Div(
+            name=f"{figure}_legend",
+            disable_math=True,
+            sizing_mode="stretch_width",
+            margin=0,
+            stylesheets=[theme.LEGEND_CSS],
+        )
+        self.listed = ()
+
+    def show(self, entries):
+        """List what is drawn.
+
+        Parameters
+        ----------
+        entries : sequence of (str, str)
+            Words of each entry, which may be a name that somebody typed, and its swatch (SVG).
+        """
+        self.listed = tuple(words for words, _ in entries)
+        items = "".join(f"<li>{swatch}<span>{html.escape(words)}</span></li>" for words, swatch in entries)
+        text = f'<ul role="list" aria-label="Legend">{items}</ul>'
+        # most frames of a drag change no word
+        if text != self.model.text:
+            self.model.text = text
+
+
+def with_legend(plot, legend):
+    """Return a figure and the legend below it, as one model of Bokeh."""
+    return column(plot, legend.model, sizing_mode="stretch_width", margin=0)
+
+
+def pinned_entry(result, remark=""):
+    """Return what a legend says of a design's line (DesignResult): its name, and a remark behind it."""
+    return result.name + remark, swatch_svg(result.colour, result.dash)
+
+
+def legend_above(plot, columns=2):
+    """Put the legend of a figure whose curves never change above its frame, where it covers none."""
+    legend = plot.legend[0]
+    legend.update(orientation="horizontal", ncols=columns, border_line_color=None, background_fill_alpha=0.0)
+    plot.add_layout(legend, "above")
 
 
 class PinnedLines:
-    """Lines for pinned designs, each with its entry in the legend; they are made when they are first needed.
+    """Lines for pinned designs; they are made when they are first needed.
 
     A figure pays at every frame for each line that it has, seen or not.
 
@@ -52,7 +95,7 @@ class PinnedLines:
     """
 
     def __init__(self, plot, front, sources, x, columns):
-        self.lines, self.entries = [], []
+        self.lines = []
         self._plot, self._front, self._x = plot, front, x
         self._unmade = list(zip(sources, columns, strict=True))
 
@@ -63,13 +106,12 @@ class PinnedLines:
         behind = renderers.index(self._front)
         renderers[behind:behind] = lines
         self.lines += lines
-        self.entries += [LegendItem(label=value(NO_LABEL), renderers=[line]) for line in lines]
 
     def _glyph(self, column):
         return Line(x=self._x, y=column, line_width=theme.PINNED_LINE_WIDTH, line_alpha=1)
 
     def show(self, pinned):
-        """Give as many lines as there are pinned designs their names, colours and dashes; hide the rest.
+        """Give as many lines as there are pinned designs their colours and dashes; hide the rest.
 
         Parameters
         ----------
@@ -79,54 +121,12 @@ class PinnedLines:
         missing = len(pinned) - len(self.lines)
         if missing > 0:
             self._make(missing)
-        for line, entry, each in zip(self.lines, self.entries, pinned, strict=False):
+        for line, each in zip(self.lines, pinned, strict=False):
             line.glyph.update(line_color=each.colour, line_dash=list(each.dash))
-            entry.label = value(formats.name_text(each.name, theme.LEGEND_NAME))
         for place, line in enumerate(self.lines):
             line.visible = place < len(pinned)
-
-    @property
-    def shown_entries(self):
-        """Entries of the lines that are drawn."""
-        return [entry for entry, line in zip(self.entries, self.lines, strict=True) if line.visible]
 
 
 def are_the_same(some, others):
     """Return whether two sequences hold the same objects in the same order: then nothing is to be sent."""
     return len(some) == len(others) and all(map(operator.is_, some, others))
-
-
-def new_legend(plot, location):
-    """Return a figure's legend, empty as yet; it is made first, so that curves are drawn behind it."""
-    legend = Legend(items=[], location=location)
-    dress_legend(legend)
-    plot.add_layout(legend)
-    return legend
-
-
-def dress_legend(legend):
-    """Give a legend the sizes that all have."""
-    keep(
-        legend,
-        label_text_font_size=theme.TICK_SIZES,
-        glyph_width=(theme.LEGEND_LINE, theme.LEGEND_LINE),
-        background_fill_alpha=(theme.LEGEND_ALPHA, theme.LEGEND_ALPHA),
-    )
-
-
-def update_legend(legend, entries, shown):
-    """List in a legend what is drawn, in two columns when one would be long.
-
-    Parameters
-    ----------
-    legend : bokeh.models.Legend
-        The legend.
-    entries, shown : list of bokeh.models.LegendItem
-        All that there are, in order, and those of what is drawn. The others are hidden, not taken out: at
-        every change of a list of models Bokeh walks through the whole document.
-    """
-    if entries != legend.items:
-        legend.items = entries
-    for entry in entries:
-        entry.visible = entry in shown
-    legend.update(ncols=1 if len(shown) <= theme.LEGEND_ROWS else 2, visible=bool(shown))

@@ -19,10 +19,10 @@ WHEEL_AT, RAIL_AT, BLOCK_AT, GROUND_AT = 0.66, 0.0, -0.6, -1.1
 """Heights at rest: the wheel's centre, the rail, the blocks' centres, the ground [units of the drawing]."""
 
 WHEEL_HEIGHT, BLOCK_HEIGHT = 0.62, 0.24
-"""Heights of wheel and block [units of the drawing]."""
+"""Heights of wheel, which is round, and block [units of the drawing]."""
 
-WHEEL_WIDTH, BLOCK_WIDTH = 0.065, 0.45
-"""Widths: the wheel's over the drawing's, a block's over the spacing [-]."""
+BLOCK_WIDTH = 0.45
+"""Width of a block over the spacing [-]."""
 
 SEEN = (-1.2, 1.25)
 """Heights that are seen [units of the drawing]."""
@@ -61,7 +61,7 @@ class SideView:
         ``<name>_supports``: ``x`` [m], heights of ``rail``, block (``block``, its ``top`` and ``bottom``) and
         ``ground``, ``width`` [m]; left to right. Blocks are NaN when single-stage.
     wheel : bokeh.models.ColumnDataSource
-        ``<name>_wheel``: ``x`` [m], heights ``y`` of its centre, ``foot`` and ``rail``, and its ``width``.
+        ``<name>_wheel``: ``x`` [m], heights ``y`` of its centre, ``foot`` and ``rail``.
     facts : bokeh.models.ColumnDataSource
         ``<name>_facts``: ``scale`` [units of the drawing per unit of movement].
     bar : bokeh.models.ColumnDataSource
@@ -75,7 +75,7 @@ class SideView:
 
         self.rail = source("rail", "x", "y")
         self.supports = source("supports", "x", "rail", "block", "top", "bottom", "ground", "width")
-        self.wheel = source("wheel", "x", "y", "foot", "rail", "width")
+        self.wheel = source("wheel", "x", "y", "foot", "rail")
         self.facts = source("facts", "scale")
         self.bar = source("bar", "x", "low", "high", "text")
         self.model = figure(
@@ -111,11 +111,11 @@ class SideView:
             x="x", y="y", source=self.rail, line_color=theme.THIS_DESIGN, line_width=2 * theme.LINE_WIDTH
         )
         plot.segment(x0="x", x1="x", y0="foot", y1="rail", source=self.wheel, **spring)
-        plot.ellipse(
+        plot.circle(
             x="x",
             y="y",
-            width="width",
-            height=WHEEL_HEIGHT,
+            radius=WHEEL_HEIGHT / 2,
+            radius_dimension="y",
             source=self.wheel,
             fill_color=theme.LOADED_TRACK,
             fill_alpha=theme.BAR_ALPHA,
@@ -206,7 +206,6 @@ class SideView:
             "y": np.array([WHEEL_AT]),
             "foot": np.array([WHEEL_AT - WHEEL_HEIGHT / 2]),
             "rail": np.array([RAIL_AT]),
-            "width": np.array([2 * reach * WHEEL_WIDTH]),
         }
 
 

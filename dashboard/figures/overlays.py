@@ -14,10 +14,10 @@ LOOK = {
     "responsive": True,
     "show_grid": True,
     "show_title": False,
+    "show_legend": False,
     "active_tools": [],
-    "legend_opts": {"click_policy": "none"},
 }
-"""Options of every description, the legend's among them."""
+"""Options of every description; legends stand outside the axes."""
 
 LIKE_OTHERS = {"output_backend": "canvas", "align": "auto"} | {
     f"min_border_{side}": None for side in ("left", "right", "top", "bottom")
@@ -57,7 +57,7 @@ def band_overlay(looks, label):
     hv = load()
     empty = (tig.BAND_CENTRES, np.full(tig.BAND_CENTRES.size, np.nan))
     zero = hv.HLine(0).opts(line_color=theme.PRESET_GHOST, line_width=theme.THIN_LINE_WIDTH)
-    curves = [hv.Curve(empty, "centre", name, label=name).opts(**look) for name, look in looks.items()]
+    curves = [hv.Curve(empty, "centre", name).opts(**look) for name, look in looks.items()]
     return hv.Overlay([zero, *curves]).opts(
         logx=True, xlabel="One-third-octave band, Hz", ylabel=label, **LOOK
     )
@@ -87,5 +87,4 @@ def rendered(overlay, aria_label, **options):
     plot.update(**LIKE_OTHERS, **options)
     dress(plot, aria_label)
     plot.toolbar.active_drag = "auto"
-    plot.legend.location = "bottom_left"
     return plot

@@ -15,8 +15,10 @@ from dashboard.figures.axes import (
     blank_figure,
     nice_step,
     show_bands,
+    show_one_two_five,
     zero_line,
 )
+from dashboard.figures.legends import legend_above
 
 LEAST_DIFFERENCE = 0.02
 """What the difference axis shows at least, up and down [dB]."""
@@ -81,7 +83,7 @@ class ComparisonFigure:
             ("difference", "@difference{+0.0000} dB"),
         ]
         self.model.add_tools(HoverTool(renderers=[dots], mode="vline", tooltips=tooltips))
-        self.model.legend.location = "bottom_left"
+        legend_above(self.model)
 
     def name_axis(self, words):
         """Say on the axis which insertion gain is drawn."""
@@ -190,7 +192,7 @@ class ReceptanceFigure:
             ("Timoshenko", "@timoshenko{0.000} nm/kN"),
         ]
         self.model.add_tools(HoverTool(renderers=[dots], mode="vline", tooltips=tooltips))
-        self.model.legend.location = "bottom_left"
+        legend_above(self.model, columns=1)
 
     def show(self, peer, frequency, receptance):
         """Draw the peer's receptance and the frequency-domain solution's, over its own frequencies."""
@@ -234,7 +236,7 @@ class TimeStepFigure:
         _errors(
             self.model, self.errors, "step", "second", theme.COUPLED_BLOCK, "square", "second-order memory"
         )
-        _legend_above(self.model)
+        legend_above(self.model)
         self._run = Span(
             dimension="height", line_color=theme.LOADED_TRACK, line_dash="dotdash", name="run_time_step"
         )
@@ -274,7 +276,7 @@ class ElementFigure:
         _slope(self.model, self.errors, "length", "two", SLOPE_TWO)
         words = "frequency-domain solution"
         _errors(self.model, self.errors, "length", "error", theme.THIS_DESIGN, "circle", words)
-        _legend_above(self.model)
+        legend_above(self.model)
         self._run = Span(
             dimension="height", line_color=theme.LOADED_TRACK, line_dash="dotdash", name="run_element"
         )
@@ -304,7 +306,7 @@ class DampingFigure:
         ``frequency`` [Hz], ``pad``, ``boot`` and what was stated of them: ``pad_stated``, ``boot_stated``.
     """
 
-    def __init__(self, name, label, legend):
+    def __init__(self, name, label):
         columns = ("frequency", "pad", "boot", "pad_stated", "boot_stated")
         self.values = ColumnDataSource(name=name, data={key: [] for key in columns})
         self._ends = AxisEnds((0.0, 2.0))
@@ -324,7 +326,7 @@ class DampingFigure:
             shared = {"x": "frequency", "source": self.values, "line_color": colour}
             self.model.line(y=f"{part}_stated", line_width=1, **shared)
             self.model.line(y=part, line_width=theme.LINE_WIDTH, line_dash=dash, legend_label=part, **shared)
-        self.model.legend.location = legend
+        legend_above(self.model)
         tooltips = [("frequency", "@frequency{0.0} Hz"), ("pad", "@pad{0.000}"), ("boot", "@boot{0.000}")]
         self.model.add_tools(HoverTool(renderers=[self.model.renderers[1]], mode="vline", tooltips=tooltips))
 
@@ -354,7 +356,7 @@ def _compared(run, exact):
 
 
 def _convergence_figure(name, label):
-    return blank_figure(
+    plot = blank_figure(
         name=name,
         x_axis_type="log",
         y_axis_type="log",
@@ -364,6 +366,8 @@ def _convergence_figure(name, label):
         y_axis_label="Largest error, dB",
         stylesheets=[theme.MEDIUM],
     )
+    show_one_two_five(plot.xaxis[0])
+    return plot
 
 
 def _errors(plot, source, x, y, colour, marker, words):
@@ -377,13 +381,6 @@ def _errors(plot, source, x, y, colour, marker, words):
     plot.add_tools(
         HoverTool(renderers=[dots], tooltips=[(label, f"@{x}{{0.00}}"), (words, f"@{y}{{0.00000}} dB")])
     )
-
-
-def _legend_above(plot):
-    """Put the legend above the frame, where it covers no curve."""
-    legend = plot.legend[0]
-    legend.update(orientation="horizontal", ncols=2, border_line_color=None, background_fill_alpha=0.0)
-    plot.add_layout(legend, "above")
 
 
 def _slope(plot, source, x, y, words):

@@ -1,82 +1,114 @@
 """Curves as CSV files, for spreadsheets and scripts.
 
-Insertion gain: dB per band [Hz]. Force into the ground: kN over time [s]; each design has a time of its
-own, since each run has a step of its own. Comma-separated, decimal points. Numbers are those of the
-solution, not those that fit a screen.
+Comment lines, each after a ``#``, say what the figures are. Insertion gain: dB per band [Hz]. Force into
+the ground: kN over time [s], which is held once. Comma-separated, decimal points.
 """
 
 import csv
 import io
-import itertools
 import re
+
+import numpy as np
+from scipy.interpolate import CubicSpline
 
 import trackig_core as tig
 
+SAME_TIME = 1e-9
+"""Difference of two times that are the same [s]."""
 
-def gain_csv(results):
+
+def gain_csv(results, heading):
     """Return insertion gain per band as CSV.
 
     Parameters
     ----------
     results : iterable of DesignResult
         Designs with a solution.
+    heading : Heading
+        What the file says of itself.
 
     Returns
     -------
     str
-        A column of bands, ``frequency_hz``, and a column per design, ``insertion_gain_db`` and its name.
+        A column of bands, ``frequency_hz``, and a column per design, ``insertion_gain_db`` and its name, with
+        four decimals.
     """
     results = list(results)
     header = ["frequency_hz", *(f"insertion_gain_db {each.name}" for each in results)]
-    columns = [tig.BAND_LABELS, *(map(float, each.levels) for each in results)]
-    return _written(header, zip(*columns, strict=True))
+    columns = [tig.BAND_LABELS, *([f"{level:.4f}" for level in each.levels] for each in results)]
+    return _written(heading.lines, header, zip(*columns, strict=True))
 
 
-def force_csv(results):
+def force_csv(results, heading):
     """Return the force into the ground over time as CSV.
 
     Parameters
     ----------
     results : iterable of DesignResult
-        Designs with a solution.
+        Designs with a solution; those that were not stepped in time are left out.
+    heading : Heading
+        What the file says of itself.
 
     Returns
     -------
     str
-        Three columns per design that was stepped in time: ``time_s``, ``total_force_kN`` summed over all
-        supports and ``loaded_support_force_kN`` under the wheel, each with the design's name; shorter
-        records end in empty cells.
+        A column ``time_s``, that of the longest record, and two columns per design, ``total_force_kN`` summed
+        over all supports and ``loaded_support_force_kN`` under the wheel, each with the design's name and to
+        five figures. A run whose samples lie at other times is interpolated (cubic spline; its forces are
+        low-passed far below the rate of its samples), and a comment says so. Shorter records end in empty
+        cells.
     """
-    header, columns = [], []
-    for each in results:
+    stepped = [each for each in results if each.summary.time is not None]
+    time = max((each.summary.time for each in stepped), key=len, default=np.zeros(0))
+    header, columns, interpolated = ["time_s"], [[f"{each:.9g}" for each in time]], []
+    for each in stepped:
         summary = each.summary
-        if summary.time is None:
-            continue
-        header += [f"{name} {each.name}" for name in ("time_s", "total_force_kN", "loaded_support_force_kN")]
-        curves = (summary.time, summary.total_force, summary.loaded_support_force)
-        columns += [[f"{value:.9g}" for value in curve] for curve in curves]
-    return _written(header, itertools.zip_longest(*columns, fillvalue=""))
+        header += [f"{name} {each.name}" for name in ("total_force_kN", "loaded_support_force_kN")]
+        forces = np.stack([summary.total_force, summary.loaded_support_force])
+        if not _same_time(summary.time, time):
+            forces = _at(time, summary.time, forces)
+            interpolated.append(each.name)
+        columns += [[_figures(force) for force in row] for row in forces]
+    remarks = [f"interpolated to the times of the longest record: {name}" for name in interpolated]
+    return _written([*heading.lines, FORCE_REMARK, *remarks], header, zip(*columns, strict=True))
 
 
-def _written(header, rows):
-    """Return a table as CSV."""
-    # headers begin with a word of ours, so that no spreadsheet takes a user's name for a formula
+FORCE_REMARK = "force into the ground after a sudden squeeze of the contact spring, low-passed at 600 Hz"
+
+
+def _same_time(own, time):
+    return own.size == time.size and np.abs(own - time).max() < SAME_TIME
+
+
+def _at(time, own, forces):
+    """Return forces (2, samples) of times of their own at other times, NaN beyond their record."""
+    return CubicSpline(own, forces, axis=1, extrapolate=False)(time)
+
+
+def _figures(force):
+    return "" if np.isnan(force) else f"{force:.5g}"
+
+
+def _written(remarks, header, rows):
+    """Return a table as CSV, comment lines above it."""
+    # headers begin with a word of ours, so that no spreadsheet takes a user's name for a formula; they are
+    # quoted, so that no reader takes a sign in a name for a comment
     file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
+    file.writelines(f"# {remark}\n" for remark in remarks)
+    csv.writer(file, lineterminator="\n", quoting=csv.QUOTE_ALL).writerow(header)
+    csv.writer(file, lineterminator="\n").writerows(rows)
     return file.getvalue()
 
 
-def file_name(title, suffix):
+def file_name(*parts):
     """Return a name for a file that every system takes.
 
     Parameters
     ----------
-    title : str
-        What the study is called.
-    suffix : str
-        What the name ends with, such as ``"gain.csv"``.
+    parts : str
+        What the study is called, and the design if the file is about one; at last what the name ends with,
+        such as ``"gain.csv"``.
     """
-    stem = re.sub(r"[^A-Za-z0-9]+", "-", title).strip("-").lower()
-    return "-".join(part for part in ("trackig", stem, suffix) if part).replace("-.", ".")
+    *titles, suffix = parts
+    stems = [re.sub(r"[^A-Za-z0-9]+", "-", title).strip("-").lower() for title in titles]
+    return "-".join(part for part in ("trackig", *stems, suffix) if part).replace("-.", ".")

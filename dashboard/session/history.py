@@ -29,7 +29,7 @@ class History:
     def __init__(self, state, pause=PAUSE, most_steps=MOST_STEPS):
         self._state, self._pause, self._most_steps = state, pause, most_steps
         self._past, self._future = [], []
-        self._moving, self._moved = None, None
+        self._moving, self._moved, self._gesture = None, None, None
 
     @property
     def state(self):
@@ -46,7 +46,7 @@ class History:
         """Whether there is a step that was undone."""
         return bool(self._future)
 
-    def note(self, state, names, now):
+    def note(self, state, names, now, gesture=None):
         """Note a change; what was undone before it cannot be redone any more.
 
         Parameters
@@ -57,15 +57,18 @@ class History:
             The inputs that changed. A change of the same inputs within the pause belongs to the same step.
         now : float
             When, by any clock that does not go back [s].
+        gesture : int, optional
+            Number of the gesture, such as a drag: one that goes on is one step, however slowly it is told.
         """
         if state == self._state:
             return
         names = frozenset(names)
-        goes_on = names == self._moving and now - self._moved <= self._pause
+        same_gesture = gesture is not None and gesture == self._gesture
+        goes_on = names == self._moving and (same_gesture or now - self._moved <= self._pause)
         if not goes_on:
             self._past = [*self._past, self._state][-self._most_steps :]
         self._state, self._future = state, []
-        self._moving, self._moved = names, now
+        self._moving, self._moved, self._gesture = names, now, gesture
         if goes_on and state == self._past[-1]:
             # moved there and back: no step at all
             self._past.pop()

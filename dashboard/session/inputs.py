@@ -4,6 +4,8 @@
 insertion gain is shown. Designs in SI units become display values here, and back.
 """
 
+from numbers import Real
+
 import param
 
 import trackig_core as tig
@@ -19,6 +21,8 @@ from dashboard.fields import (
     to_display,
     to_si,
 )
+from dashboard.formats import quantity_text
+from trackig_core.typed_numbers import NumberError, read_number
 
 
 def design_of(values):
@@ -97,6 +101,48 @@ def _number(name):
     )
 
 
+class InputError(ValueError):
+    """What a user gave is no value of an input; the message says why, and what is."""
+
+
+def read_input(name, given):
+    """Return the value of an input that a user gave.
+
+    Parameters
+    ----------
+    name : str
+        One of :data:`PHYSICAL`.
+    given : object
+        A value, or text as it was typed, with or without unit.
+
+    Returns
+    -------
+    float, bool or str
+        The value [display unit].
+
+    Raises
+    ------
+    InputError
+        If it is none, or lies beyond the range.
+    """
+    parameter = DesignInputs.param[name]
+    if name not in FIELDS:
+        values = parameter.objects if isinstance(parameter, param.Selector) else (True, False)
+        if type(given) not in (bool, str) or given not in values:
+            raise InputError("choose one of what is offered")
+        return given
+    unit, (low, high) = FIELDS[name].unit, parameter.bounds
+    takes = f"{quantity_text(low)} to {quantity_text(high)} {unit}".rstrip()
+    if isinstance(given, str):
+        try:
+            given = read_number(given, unit)
+        except NumberError as error:
+            raise InputError(f"{error}; this box takes {takes}") from None
+    if not isinstance(given, Real) or isinstance(given, bool) or not low <= given <= high:
+        raise InputError(f"give {takes}")
+    return float(given)
+
+
 def preset_values(key):
     """Return all inputs as they are when a preset has been chosen on a fresh page.
 
@@ -137,6 +183,10 @@ class DesignInputs(param.Parameterized):
     wheel_mass = _number("wheel_mass")
     contact_stiffness = _number("contact_stiffness")
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
+    refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")
+
+    gesture = None
+    """Number of the user's gesture to which a change belongs while it is noted; None: nobody says."""
 
     _taking = False
 
@@ -144,7 +194,7 @@ class DesignInputs(param.Parameterized):
     def revert(self):
         """Set every input to the preset's value; inputs that the preset does not have keep theirs."""
         if not self._taking:
-            self.param.update(**display_values(self.preset_design))
+            self.param.update(**display_values(self.preset_design), refused={})
         self._note_modified()
 
     @property
@@ -188,9 +238,41 @@ class DesignInputs(param.Parameterized):
         check_values(values)
         self._taking = True
         try:
-            self.param.update(**values)
+            self.param.update(**values, refused={})
         finally:
             self._taking = False
+
+    def take_given(self, given, gesture=None):
+        """Set what a user gave, as one change; what cannot be read stays as it was and is noted as refused.
+
+        Parameters
+        ----------
+        given : mapping
+            What was given, whatever it is, by name; names that are no inputs are passed over. A preset sets
+            all other inputs first.
+        gesture : int, optional
+            Number of the gesture that gave it.
+        """
+        values, refused = {}, {}
+        for name in PHYSICAL:
+            if name in given:
+                try:
+                    values[name] = read_input(name, given[name])
+                except InputError as error:
+                    refused[name] = str(error)
+        self.gesture = gesture
+        try:
+            if given.get("preset") in tuple(tig.PRESETS):
+                self.preset = given["preset"]
+            earlier = {name: words for name, words in self.refused.items() if name not in values}
+            self.param.update(**values, refused={**earlier, **refused})
+        finally:
+            self.gesture = None
+
+    @param.depends("two_stage", watch=True)
+    def _forget_second_stage(self):
+        if not self.two_stage:
+            self.refused = {name: words for name, words in self.refused.items() if name not in SECOND_STAGE}
 
     @param.depends(*PHYSICAL, watch=True)
     def _note_modified(self):

@@ -248,6 +248,17 @@ class Pins(param.Parameterized):
             base=None if base is None else first + range(len(pins))[base],
         )
 
+    def set_alike(self, **values):
+        """Give every pin the same values of some fields, as one change; each gets a new key.
+
+        Parameters
+        ----------
+        values : dict
+            Values by field of trackig_core.TrackDesign, SI units.
+        """
+        base = next((place for place, pin in enumerate(self.pinned) if pin.key == self.base), None)
+        self.replace_all((replace(pin, design=pin.design.replace(**values)) for pin in self.pinned), base)
+
     def _change(self, key, **changes):
         changed = replace(self[key], **changes)
         self.pinned = tuple(changed if pin.key == key else pin for pin in self.pinned)

@@ -91,15 +91,15 @@ class Steps(param.Parameterized):
 
     def _note_move(self, *events):
         """Note a change that may go on: of a slider, or of a table as it is typed."""
-        self._note({event.name for event in events})
+        self._note({event.name for event in events}, self._inputs.gesture)
 
     def _note_act(self, *_):
         """Note a change that is a step of its own."""
         self._note({object()})
 
-    def _note(self, names):
+    def _note(self, names, gesture=None):
         if not self._held:
-            self._history.note(self._state(), names, self._clock())
+            self._history.note(self._state(), names, self._clock(), gesture)
             self._show()
 
     def _show(self):

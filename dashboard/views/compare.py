@@ -10,10 +10,11 @@ import trackig_core as tig
 from dashboard import theme
 from dashboard.client.exchange import notify
 from dashboard.compute.document import NextTick
-from dashboard.figures.comparison import BaseDifferenceFigure
+from dashboard.figures.comparison import BaseDifferenceFigure, GainsFigure
 from dashboard.session.pins import PinError
 from dashboard.views.comparison_table import table_html
-from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption
+from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.likeness import Likeness
 from dashboard.views.pin_list import PinList
 from dashboard.views.tab import Tab
 
@@ -22,7 +23,7 @@ FEW_BANDS = ("16", "31.5", "63", "125", "250")
 
 
 class Compare(Tab):
-    """List of pins, difference from a base, and a table side by side.
+    """List of pins, insertion gains, their difference from a base, and a table side by side.
 
     Parameters
     ----------
@@ -30,6 +31,8 @@ class Compare(Tab):
         Where a pin's values are put back.
     pins : Pins
         The pins.
+    definition : GainDefinition
+        Which insertion gain is shown.
     assessment : Assessment
         The results of all designs.
     on_figure_2 : callable
@@ -39,11 +42,11 @@ class Compare(Tab):
     title = "Compare"
     link_name = "compare"
 
-    def __init__(self, inputs, pins, assessment, on_figure_2):
+    def __init__(self, inputs, pins, definition, assessment, on_figure_2):
         super().__init__()
-        self._pins, self._assessment = pins, assessment
+        self._pins, self._definition, self._assessment = pins, definition, assessment
         self._on_figure_2 = on_figure_2
-        self.list = PinList(inputs, pins)
+        self.list, self.likeness = PinList(inputs, pins), Likeness(pins, assessment)
         self.table_1 = pmui.Button(label="Pin Table 1", icon="push_pin", on_click=self._pin_table_1, **BUTTON)
         self.figure_2 = pmui.Button(
             label="Paper's Figure 2", icon="show_chart", on_click=self._show_figure_2, **BUTTON
@@ -59,7 +62,7 @@ class Compare(Tab):
             margin=(0, 12, 4, 12),
             stylesheets=[theme.CHECKS_CSS],
         )
-        self.differences = BaseDifferenceFigure()
+        self.gains, self.differences = GainsFigure(), BaseDifferenceFigure()
         self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[theme.TABLE_CSS], margin=0)
         self._show_later = NextTick(self._show)
         self.bands.param.watch(self._show_later, "value")
@@ -110,6 +113,9 @@ class Compare(Tab):
         if not self.in_sight or assessment.current.summary is None:
             return
         base = assessment.base
+        self.likeness.show()
+        self.gains.name_axis(gain_axis(self._definition))
+        self.gains.show(assessment.shown)
         self.differences.show(base, [each for each in assessment.shown if each is not base])
         self.table.object = table_html(
             [each for each in assessment.results if each.shown or each is base],
@@ -128,8 +134,10 @@ class Compare(Tab):
                 sizing_mode="stretch_width",
             ),
             self.list,
+            self.likeness,
             **PAPER,
         )
+        gains = pmui.Paper(caption("Insertion gain", ""), bokeh_pane(self.gains.layout), **PAPER)
         difference = pmui.Paper(
             pmui.Row(
                 caption("Difference in insertion gain", ""),
@@ -137,12 +145,13 @@ class Compare(Tab):
                 self._base_place,
                 sizing_mode="stretch_width",
             ),
-            bokeh_pane(self.differences.model),
+            bokeh_pane(self.differences.layout),
             **PAPER,
         )
         table = pmui.Paper(caption("Side by side", ""), self.bands, self.table, **PAPER)
         return pmui.Grid(
             pmui.Grid(pinned, size=12),
+            pmui.Grid(gains, size=12),
             pmui.Grid(difference, size=12),
             pmui.Grid(table, size=12),
             container=True,

@@ -8,8 +8,8 @@ import html
 import trackig_core as tig
 from dashboard import formats
 from dashboard.fields import FIELDS, six_figures
+from dashboard.figures.swatches import swatch_svg
 from dashboard.session.inputs import DesignInputs, display_values
-from dashboard.views.components import swatch_svg
 
 NONE = "–"
 

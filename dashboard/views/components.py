@@ -1,5 +1,6 @@
 """What several views are made of: panels, captions, panes, swatches."""
 
+import html
 from typing import ClassVar
 
 import panel as pn
@@ -17,19 +18,32 @@ PAPER = {"elevation": 0, "sizing_mode": "stretch_width", "margin": 0, "sx": them
 """What a panel of the page is made of."""
 
 
+SHRINKS = {"flex": "0 1 auto", "min-width": "0", "max-width": "100%"}
+"""What takes the room that its words need, and wraps them where there is less."""
+
+
 class QuickSlider(pmui.FloatSlider):
     """A slider that reports its moves at once, not after Panel's 50 ms; the runner drops what is too many."""
 
     _priority_changes: ClassVar[list[str]] = ["value"]
 
 
+SHRINKS = {"flex": "0 1 auto", "min-width": "0", "max-width": "100%"}
+"""What takes the room that its words need, and wraps them where there is less."""
+
+
 def caption(title, words):
     """Return a panel's heading."""
-    return pmui.Row(
-        pmui.Typography(title, variant="subtitle1", sx=theme.PANEL_TITLE, margin=0),
-        pmui.Typography(words, variant="body2", color="text.secondary", margin=(3, 0, 0, 10)),
-        margin=(4, 0, 0, 12),
-    )
+    text = f"<h2>{html.escape(title)}</h2><p>{html.escape(words)}</p>"
+    return pn.pane.HTML(text, stylesheets=[theme.CAPTION_CSS], styles=SHRINKS, margin=(4, 0, 0, 12))
+
+
+def panel(*objects):
+    """Return a panel of the page to which figures may be added while it is shown.
+
+    Bokeh would lay out a figure that Material has not drawn yet, and fail.
+    """
+    return pn.Column(*objects, stylesheets=[theme.PANEL_CSS], sizing_mode="stretch_width", margin=0)
 
 
 def bokeh_pane(model):
@@ -43,12 +57,3 @@ def gain_axis(definition):
 
 
 SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}
-
-
-def swatch_svg(colour, dash):
-    """Return a short piece of a design's line, as it is drawn in every plot."""
-    dashes = " ".join(str(length) for length in dash) or "none"
-    return (
-        '<svg class="swatch" width="34" height="12" viewBox="0 0 34 12" aria-hidden="true">'
-        f'<path d="M1 6H33" stroke="{colour}" stroke-width="4" stroke-dasharray="{dashes}"/></svg>'
-    )

@@ -20,7 +20,7 @@ from dashboard.fields import FIELDS
 from dashboard.figures.decide import ChangeFigure, CloudFigure, MapFigure, PercentileFigure, TornadoFigure
 from dashboard.session.inputs import design_of, values_of
 from dashboard.session.pins import PinError
-from dashboard.views.components import PAPER, bokeh_pane, caption
+from dashboard.views.components import bokeh_pane, caption, panel
 from dashboard.views.tab import Tab
 
 FIGURE_WORDS = {
@@ -95,12 +95,6 @@ class Asked:
         else:
             self.inquiry.asked = question
 
-    @property
-    def awaits(self):
-        """Whether a question is asked and not answered."""
-        inquiry = self.inquiry
-        return inquiry.asked is not None and inquiry.answered != inquiry.asked and not inquiry.problem
-
     def _show_state(self, *_):
         inquiry = self.inquiry
         self.progress.param.update(
@@ -174,7 +168,7 @@ class HowFar(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        return pmui.Paper(caption("How far?", HOW_FAR), self.sentence, self.table, **PAPER)
+        return panel(caption("How far?", HOW_FAR), self.sentence, self.table)
 
 
 class WhatMatters(Asked):
@@ -232,17 +226,11 @@ class WhatMatters(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        return pmui.Paper(
+        return panel(
             caption("What matters?", WHAT_MATTERS),
-            pmui.Row(self.change, self.figure, margin=(0, 12)),
+            pn.FlexBox(self.change, self.figure, margin=(0, 12)),
             self.sentence,
-            pmui.Grid(
-                pmui.Grid(bokeh_pane(self.changes.model), size=HALF),
-                pmui.Grid(bokeh_pane(self.tornado.model), size=HALF),
-                container=True,
-                sizing_mode="stretch_width",
-            ),
-            **PAPER,
+            beside(self.changes.model, self.tornado.model),
         )
 
 
@@ -320,16 +308,15 @@ class HowSure(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        return pmui.Paper(
+        return panel(
             caption("How sure?", HOW_SURE),
-            pmui.FlexBox(*self.tolerances.values(), margin=(0, 12)),
-            pmui.FlexBox(
-                self.shape, self.samples, self.seed, self.button, self.progress, self.stop, margin=(0, 12)
+            pn.FlexBox(*self.tolerances.values(), margin=(0, 12)),
+            pn.FlexBox(
+                *(self.shape, self.samples, self.seed, self.button, self.progress, self.stop), margin=(0, 12)
             ),
             self.sentence,
             bokeh_pane(self.percentiles.model),
             self.table,
-            **PAPER,
         )
 
 
@@ -361,7 +348,7 @@ class Map(Asked):
             margin=(0, 12, 0, 0),
         )
         self.map = MapFigure(self._tapped)
-        self.place = pmui.Column(sizing_mode="stretch_width", margin=0)
+        self.place = pn.Column(sizing_mode="stretch_width", margin=0)
         self.button.label = "Draw the map"
         self.figure.param.watch(self.ask_again, "value")
 
@@ -409,8 +396,8 @@ class Map(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        return pmui.Column(
-            pmui.FlexBox(self.x, self.y, self.figure, self.button, self.progress, self.stop, margin=(0, 12)),
+        return pn.Column(
+            pn.FlexBox(self.x, self.y, self.figure, self.button, self.progress, self.stop, margin=(0, 12)),
             self.sentence,
             self.place,
             sizing_mode="stretch_width",
@@ -547,9 +534,9 @@ class Search(Asked):
     def build(self):
         """Return what is put on the page."""
         pictures = (self.cloud.objectives, self.cloud.fields, self.cloud.gains)
-        return pmui.Column(
-            pmui.FlexBox(self.free, margin=(0, 12)),
-            pmui.FlexBox(
+        return pn.Column(
+            pn.FlexBox(self.free, margin=(0, 12)),
+            pn.FlexBox(
                 self.against,
                 *self.prices.values(),
                 self.seed,
@@ -559,12 +546,8 @@ class Search(Asked):
                 margin=(0, 12),
             ),
             self.sentence,
-            pmui.Row(self.take, self.pin, margin=(0, 12)),
-            pmui.Grid(
-                *(pmui.Grid(bokeh_pane(each), size=THIRD) for each in pictures),
-                container=True,
-                sizing_mode="stretch_width",
-            ),
+            pn.Row(self.take, self.pin, margin=(0, 12)),
+            beside(*pictures),
             sizing_mode="stretch_width",
             margin=0,
         )
@@ -596,16 +579,7 @@ class Decide(Tab):
         self.how_sure = HowSure(assessment, definition)
         self.map = Map(assessment, definition, self._take)
         self.search = Search(assessment, definition, self._take, self._pin)
-        self._place = pn.Column(sizing_mode="stretch_width", margin=0)
-        self._quick = (self.how_far, self.what_matters)
-        for each in self._quick:
-            each.inquiry.param.watch(self._put, ["answered", "problem"])
         assessment.param.watch(self.refresh, "results")
-
-    def _put(self, *_):
-        """Put all on the page once the quick questions are answered: the browser lays it out once."""
-        if not self._place.objects and not any(each.awaits for each in self._quick):
-            self._place.append(self._parts())
 
     def refresh(self, *_):
         """Answer for the current design what takes milliseconds."""
@@ -626,40 +600,33 @@ class Decide(Tab):
         else:
             notify("success", f"Pinned as “{pin.name}”. See the tab Compare.")
 
-    def build(self):
-        """Return what is put on the page."""
-        return self._place
-
-    def _parts(self):
-        which = pmui.Paper(
-            caption("Which one?", WHICH_ONE),
-            pmui.Tabs(
-                ("Map", self.map.build()),
-                ("Search", self.search.build()),
-                sizing_mode="stretch_width",
-                margin=(0, 8),
-            ),
-            **PAPER,
-        )
-        return pmui.Column(
-            self.how_far.build(),
-            self.what_matters.build(),
-            self.how_sure.build(),
-            which,
+    def fill(self, place):
+        """Put one question after the other into its place."""
+        which = pmui.Tabs(
+            *(("Map", self.map.build()), ("Search", self.search.build())),
             sizing_mode="stretch_width",
-            margin=(0, 8, 8, 8),
+            margin=(0, 8),
         )
+        parts = (each.build() for each in (self.how_far, self.what_matters, self.how_sure))
+        for part in (*parts, panel(caption("Which one?", WHICH_ONE), which)):
+            part.margin = (0, 8, 8, 8)
+            place.append(part)
+            yield
 
 
 BUTTON = {"size": "small", "variant": "outlined", "margin": (10, 8, 6, 0)}
 BOX = {"margin": (6, 12, 6, 0)}
-HALF = {"xs": 12, "lg": 6}
-THIRD = {"xs": 12, "md": 6, "xl": 4}
 
 HOW_FAR = "where the design complies along each number, all others held"
 WHAT_MATTERS = "what changes when a number does; the map shows the change of insertion gain when it is more"
 HOW_SURE = "how much of production complies, when numbers scatter by their tolerances"
 WHICH_ONE = "designs over two numbers, or a search over several"
+
+
+def beside(*figures):
+    """Return figures side by side, or below each other where there is no room."""
+    panes = [bokeh_pane(each) for each in figures]
+    return pn.Column(*panes, stylesheets=[theme.FITTING_CSS], sizing_mode="stretch_width", margin=0)
 
 
 def where(result, name):

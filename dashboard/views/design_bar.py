@@ -72,6 +72,10 @@ class DesignBar(Viewer):
 
     def _pin(self, _):
         inputs = self._inputs
+        if inputs.refused:
+            labels = " and ".join(inputs.param[name].label for name in inputs.refused)
+            notify("warning", f"Nothing is pinned: what stands in {labels} was not taken. Correct it first.")
+            return
         usual = "" if inputs.modified else PRESET_LABELS[inputs.preset]
         try:
             pin = self._pins.add(inputs.to_design(), self.name_box.value or usual, inputs.preset)
@@ -84,9 +88,9 @@ class DesignBar(Viewer):
 
     def __panel__(self):
         """Return what is put on the page."""
-        return pmui.Column(
-            pmui.Row(self.name_box, self.pin, sizing_mode="stretch_width", margin=(0, 12, 0, 16)),
-            pmui.Row(self.undo, self.redo, sizing_mode="stretch_width", margin=(2, 12, 0, 8)),
+        return pn.Column(
+            pn.Row(self.name_box, self.pin, sizing_mode="stretch_width", margin=(0, 12, 0, 16)),
+            pn.Row(self.undo, self.redo, sizing_mode="stretch_width", margin=(2, 12, 0, 8)),
             sizing_mode="stretch_width",
             margin=(6, 0, 0, 0),
         )

@@ -10,7 +10,7 @@ from dashboard import theme
 from dashboard.compute.document import NextTick
 from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
-from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.components import bokeh_pane, caption, gain_axis, panel
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.tab import Tab
 from dashboard.views.verdict import ShortVerdict
@@ -43,9 +43,9 @@ class Explore(Tab):
         self.force = ForceFigure()
         self.frequencies = Frequencies(outcome)
         self.verdict = ShortVerdict(assessment)
-        self.panes = [bokeh_pane(each.model) for each in (self.insertion_gain, self.force)]
+        self.panes = [bokeh_pane(each.layout) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
-            label="", size="small", variant="outlined", visible=False, margin=(2, 0, 0, 10)
+            label="", size="small", variant="outlined", visible=False, margin=(7, 0, 0, 10)
         )
         self.show_current = pmui.Button(
             label="Show this design",
@@ -105,21 +105,40 @@ class Explore(Tab):
             pane.styles = theme.STALE if is_old else theme.FRESH
 
     def build(self):
-        """Return what is put on the page."""
+        """Return what is put on the page, whole."""
+        place = pn.Column(sizing_mode="stretch_width", margin=0)
+        for _ in self.fill(place):
+            pass
+        return place
+
+    def fill(self, place):
+        """Put the view into its place, a panel at a time."""
+        gain, force, frequencies = (panel() for _ in range(3))
+        gain.margin = (0, 8, 8, 8)
+        place.objects = [
+            gain,
+            pn.Column(
+                force,
+                frequencies,
+                stylesheets=[theme.BESIDE_CSS],
+                sizing_mode="stretch_width",
+                margin=(0, 8, 8, 8),
+            ),
+        ]
+        yield
         gain_pane, force_pane = self.panes
-        gain = pmui.Paper(
-            pmui.Row(
+        gain.objects = [
+            pn.Row(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
                 pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
             ),
-            pmui.Row(
-                pmui.Typography(
-                    GAIN_WORDS,
-                    variant="body2",
-                    color="text.secondary",
+            pn.Row(
+                pn.pane.HTML(
+                    f"<p>{GAIN_WORDS}</p>",
+                    stylesheets=[theme.CAPTION_CSS],
                     sizing_mode="stretch_width",
                     margin=(0, 12, 4, 12),
                 ),
@@ -128,20 +147,13 @@ class Explore(Tab):
                 margin=0,
             ),
             self.verdict,
-            gain_pane,
-            **PAPER,
-        )
-        force = pmui.Paper(caption(FORCE_TITLE, FORCE_WORDS), force_pane, **PAPER)
-        frequencies = pmui.Paper(caption("Natural frequencies", ""), self.frequencies, **PAPER)
-        return pmui.Grid(
-            pmui.Grid(gain, size=12),
-            pmui.Grid(force, size=WIDE),
-            pmui.Grid(frequencies, size=NARROW),
-            container=True,
-            spacing=1,
-            sizing_mode="stretch_width",
-            margin=(0, 8, 8, 8),
-        )
+        ]
+        yield
+        gain.append(gain_pane)
+        yield
+        frequencies.objects = [caption("Natural frequencies", ""), self.frequencies]
+        force.objects = [caption(FORCE_TITLE, FORCE_WORDS), force_pane]
+        yield
 
 
 FIDELITY_CHIPS = {
@@ -150,8 +162,6 @@ FIDELITY_CHIPS = {
     "paper": ("paper's run", "outlined"),
 }
 """What the chip beside the title says of each fidelity, and how it looks."""
-
-WIDE, NARROW = {"xs": 12, "lg": 7}, {"xs": 12, "lg": 5}
 
 GAIN_TITLE = "Insertion gain"
 GAIN_WORDS = (

@@ -8,6 +8,7 @@ from functools import partial
 import panel as pn
 import panel_material_ui as pmui
 
+from dashboard import theme
 from dashboard.views.lessons import Lessons
 from dashboard.views.motion import Motion
 from dashboard.views.subjects import Damping, Definitions, LumpedVsBeam, Resonances, Slopes
@@ -41,7 +42,9 @@ class Learn(Tab):
         }
         self._made = {}
         self._places = {title: pn.Column(sizing_mode="stretch_width", margin=0) for title in self._makers}
-        self.menu = pmui.Tabs(*self._places.items(), sizing_mode="stretch_width", margin=(0, 8, 8, 8))
+        self.menu = pmui.Tabs(
+            *self._places.items(), sizing_mode="stretch_width", margin=(0, 8, 8, 8), sx=theme.TABS
+        )
         self.menu.param.watch(self._turn, "active")
 
     @property

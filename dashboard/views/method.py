@@ -1,19 +1,19 @@
 """The tab that says what is computed: equations, assumptions, slips corrected, limits, glossary.
 
-The text is ``assets/method.md``. Its Markdown is rendered with HTML disabled, its displayed equations by
-KaTeX, which Panel brings along: nothing is fetched from elsewhere.
+The text is ``assets/method.md``: Markdown with HTML disabled, formulas between dollar signs. KaTeX, which
+Panel brings along, sets them: nothing is fetched from elsewhere.
 """
 
-import re
+import html
 
 import panel as pn
 import panel_material_ui as pmui
+from markdown_it import MarkdownIt
+from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from dashboard import assets, theme
 from dashboard.views.components import PAPER
 from dashboard.views.tab import Tab
-
-_EQUATION = re.compile(r"^\$\$\n(.*?)\n\$\$$", re.DOTALL | re.MULTILINE)
 
 MISSING = "This installation lacks the text of the method, `assets/method.md`. Install trackig again."
 
@@ -30,45 +30,37 @@ class Method(Tab):
             text = assets.read_text(assets.METHOD)
         except OSError:
             text = MISSING
-        self.parts = [_part(*each) for each in split(text)]
+        self.text = pn.pane.LaTeX(
+            method_html(text),
+            renderer="katex",
+            sizing_mode="stretch_width",
+            margin=0,
+            stylesheets=[theme.PROSE_CSS, theme.EQUATION_CSS],
+        )
 
     def build(self):
         """Return what is put on the page."""
-        return pmui.Paper(pmui.Column(*self.parts, max_width=theme.PROSE_WIDTH, margin=(4, 16)), **PAPER)
+        return pmui.Paper(pmui.Column(self.text, max_width=theme.PROSE_WIDTH, margin=(4, 16)), **PAPER)
 
 
-def split(text):
-    """Return a text as parts in order.
+def method_html(text):
+    """Return a text as HTML in which KaTeX finds the formulas.
 
     Parameters
     ----------
     text : str
-        Markdown; a line ``$$`` stands before and after each displayed equation.
+        Markdown: ``$`` around formulas within a line, lines ``$$`` before and after those that are displayed.
 
     Returns
     -------
-    list of tuple
-        Kind, ``"text"`` or ``"equation"``, and what it says.
+    str
+        HTML; formulas are as they were, on one line each, between their dollar signs.
     """
-    kinds = ("text", "equation")
-    pieces = _EQUATION.split(text)
-    return [(kinds[number % 2], piece.strip()) for number, piece in enumerate(pieces) if piece.strip()]
+    markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
+    return markdown.use(dollarmath_plugin, renderer=_formula).render(text)
 
 
-def _part(kind, words):
-    if kind == "equation":
-        # one line: KaTeX takes line breaks as spaces, its finder of equations does not
-        return pn.pane.LaTeX(
-            f"$${' '.join(words.split())}$$",
-            renderer="katex",
-            sizing_mode="stretch_width",
-            margin=(2, 0),
-            stylesheets=[theme.EQUATION_CSS],
-        )
-    return pn.pane.Markdown(
-        words,
-        renderer_options={"html": False},
-        sizing_mode="stretch_width",
-        margin=0,
-        stylesheets=[theme.PROSE_CSS],
-    )
+def _formula(formula, options):
+    sign = "$$" if options["display_mode"] else "$"
+    # one line: KaTeX takes line breaks as spaces, its finder of formulas does not
+    return html.escape(f"{sign}{' '.join(formula.split())}{sign}")

@@ -9,9 +9,9 @@ from panel.viewable import Viewer
 
 from dashboard import theme
 from dashboard.client.exchange import notify
+from dashboard.figures.swatches import swatch_svg
 from dashboard.session.inputs import values_of
 from dashboard.session.pins import PinError
-from dashboard.views.components import swatch_svg
 from trackig_core.names import LONGEST_NAME
 
 COLOURS = {name: number for number, name in enumerate(theme.DESIGN_COLOUR_NAMES)}

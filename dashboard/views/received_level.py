@@ -10,8 +10,11 @@ import panel as pn
 import panel_material_ui as pmui
 
 from dashboard import formats, theme
+from dashboard.compute.document import NextTick
+from dashboard.figures.comparison import ReceivedLevelFigure
+from dashboard.figures.swatches import swatch_svg
 from dashboard.views.band_editor import BandEditor
-from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption, swatch_svg
+from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption
 from dashboard.views.tab import Tab
 
 
@@ -44,11 +47,15 @@ class ReceivedLevel(Tab):
         self.table = pn.pane.HTML(
             "", stylesheets=[theme.LEVELS_CSS], sizing_mode="stretch_width", margin=(0, 12, 8, 12)
         )
+        self.figure = ReceivedLevelFigure()
+        self.plot = pn.Column(bokeh_pane(self.figure.layout), sizing_mode="stretch_width", margin=0)
         self.editor = BandEditor(
             assessment, "source", exchange, "Source, dB", "Level on the reference track, and with the designs"
         )
         self.base.param.watch(self._choose, "value")
-        assessment.param.watch(self._show, ["results", "base"])
+        # figures are models of Bokeh, which may change only when the document may
+        self._show_later = NextTick(self._show)
+        assessment.param.watch(self._show_later, ["results", "base"])
 
     def _offer(self):
         options = {CURRENT_NAME: CURRENT} | {pin.name: pin.key for pin in self._pins.pinned}
@@ -59,9 +66,9 @@ class ReceivedLevel(Tab):
 
     def refresh(self):
         """Show what has changed while nobody looked."""
-        self._show()
+        self._show_later()
 
-    def _show(self, *_):
+    def _show(self):
         # a select that was never drawn cannot take new options
         if not self.in_sight:
             return
@@ -69,14 +76,16 @@ class ReceivedLevel(Tab):
         self.table.object = levels_html(
             self._assessment.shown, self._assessment.source, self._assessment.base
         )
-        self.editor.grid.designs = [
-            _design(each) for each in self._assessment.shown if each.level is not None
-        ]
+        received = [each for each in self._assessment.shown if each.level is not None]
+        self.editor.grid.designs = [_design(each) for each in received]
+        self.plot.visible = bool(received)
+        if received:
+            self.figure.show(self._assessment.source, received)
 
     def build(self):
         """Return what is put on the page."""
         return pmui.Column(
-            pmui.Paper(caption("Level with the track", WORDS), self.base, self.table, **PAPER),
+            pmui.Paper(caption("Level with the track", WORDS), self.base, self.table, self.plot, **PAPER),
             pmui.Paper(caption("Source", SOURCE_WORDS), self.editor, **PAPER),
             sizing_mode="stretch_width",
             margin=(0, 8, 8, 8),

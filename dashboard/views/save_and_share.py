@@ -1,4 +1,4 @@
-"""The tab from which everything is taken home: link, study, curves, plots, report.
+"""The tab from which everything is taken home: link, study, report, data sheet, curves, pictures.
 
 What is opened replaces everything, or nothing and says why.
 """
@@ -6,16 +6,18 @@ What is opened replaces everything, or nothing and says why.
 import asyncio
 import datetime
 import html
+from functools import partial
 
 import panel as pn
 import panel_material_ui as pmui
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.client.exchange import COPYING, notify, opening, saving
+from dashboard.client.exchange import COPYING, notify, opening
 from dashboard.compute.workers import workers
 from dashboard.persistence.exports import file_name, force_csv, gain_csv
-from dashboard.views.components import PAPER, caption
+from dashboard.session.heading import Heading
+from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption
 from dashboard.views.tab import Tab
 from trackig_core.names import LONGEST_TITLE, allowed, is_name
 
@@ -52,18 +54,21 @@ class SaveAndShare(Tab):
         self.gain = button("Insertion gain, CSV", "download", on_click=self._save_gain)
         self.force = button("Force, CSV", "download", on_click=self._save_force)
         self.report = button("Report, HTML", "description", on_click=self._save_report)
-        self.plots = [
-            button(
-                f"{words}, {form.upper()}", "image", js_on_click=saving(plot, form, f"trackig-{stem}.{form}")
+        self.sheet = button("Data sheet, HTML", "article", on_click=self._save_sheet)
+        self.sheet_design = None
+        self._sheet_place = pmui.Row(margin=0)
+        self.pictures = {
+            (kind, form): button(
+                f"{words}, {form.upper()}", "image", on_click=partial(self._save_picture, kind, form)
             )
-            for plot, words, stem in PLOTS
-            for form in ("png", "svg")
-        ]
+            for kind, words in PICTURES
+            for form in MEDIA
+        }
         self.study_name.param.watch(self._rename, "value")
         self._assessment.param.watch(self._show_name, "title")
-        self._assessment.param.watch(self._enable, "results")
+        self._assessment.param.watch(self._offer, "results")
         exchange.on_file("study", self._open_study)
-        self._enable()
+        self._offer()
 
     def _rename(self, event):
         title = event.new.strip()
@@ -76,12 +81,39 @@ class SaveAndShare(Tab):
     def _show_name(self, *_):
         self.study_name.param.update(value=self._assessment.title, error_state=False, helper_text="")
 
-    def _enable(self, *_):
-        for each in (self.gain, self.force, self.report):
+    def _offer(self, *_):
+        """Offer what can be saved of the designs that are solved and shown."""
+        for each in (self.gain, self.force, self.report, self.sheet, *self.pictures.values()):
             each.disabled = not self._assessment.shown
+        options = {
+            CURRENT_NAME if each.key is None else each.name: each.key or CURRENT
+            for each in self._assessment.shown
+        }
+        chosen = self.sheet_design
+        if chosen is not None and chosen.options == options:
+            return
+        # made anew: the browser's select fails when its options change before its tab was ever seen
+        kept = chosen is not None and chosen.value in options.values()
+        self.sheet_design = pn.widgets.Select(
+            label="Design",
+            options=options,
+            value=chosen.value if kept else next(iter(options.values()), None),
+            width=SELECT_WIDTH,
+            margin=(6, 12, 6, 0),
+            stylesheets=[theme.SELECT_CSS],
+        )
+        self._sheet_place.objects = [self.sheet_design]
 
-    def _file(self, suffix):
-        return file_name(self._assessment.title, suffix)
+    @property
+    def _drawn(self):
+        """The results that the plots show: those of the pins alone, if they stand alone."""
+        return self._assessment.shown_pins if self._snapshot.pins.alone else self._assessment.shown
+
+    def _heading(self, results):
+        return Heading.of(self._snapshot.study(), results, datetime.date.today())
+
+    def _file(self, *parts):
+        return file_name(self._assessment.title, *parts)
 
     def _save_study(self, *_):
         self._exchange.save(self._file(".toml"), self._snapshot.study().to_toml(), "application/toml")
@@ -97,51 +129,122 @@ class SaveAndShare(Tab):
             notify("success", "The study is open.")
 
     def _save_gain(self, *_):
-        self._exchange.save(self._file("gain.csv"), gain_csv(self._assessment.shown))
+        self._save_curves(gain_csv, self._drawn, "gain.csv")
 
     def _save_force(self, *_):
-        self._exchange.save(self._file("force.csv"), force_csv(self._assessment.shown))
+        self._save_curves(
+            force_csv, [each for each in self._drawn if each.summary.time is not None], "force.csv"
+        )
+
+    def _save_curves(self, write, results, suffix):
+        if not results:
+            notify("warning", NOT_SOLVED)
+            return
+        heading = self._heading(results)
+        self._exchange.save(self._file(heading.design, suffix), write(results, heading))
 
     async def _save_report(self, *_):
-        study, title = self._snapshot.study(), self._file("report.html")
+        study = self._snapshot.study()
         solved = [each.summary for each in self._assessment.results if each.summary is not None]
         summaries = {summary.design: summary for summary in solved}
-        self.report.loading = True
+        await self._save_drawn(
+            self.report, self._file("report.html"), "text/html", write_report, study, summaries
+        )
+
+    async def _save_sheet(self, *_):
+        chosen = self.sheet_design.value
+        result = next((each for each in self._assessment.shown if (each.key or CURRENT) == chosen), None)
+        if result is None:
+            notify("warning", NOT_SOLVED)
+            return
+        heading, assessment = self._heading([result]), self._assessment
+        await self._save_drawn(
+            self.sheet,
+            self._file(heading.design, "data-sheet.html"),
+            "text/html",
+            write_sheet,
+            result,
+            heading,
+            assessment.specification,
+            assessment.source,
+        )
+
+    async def _save_picture(self, kind, form, *_):
+        results, assessment = self._drawn, self._assessment
+        if kind == "force":
+            results = [each for each in results if each.summary.time is not None]
+        if not results or (kind == "difference" and assessment.base.levels is None):
+            notify("warning", NOT_SOLVED)
+            return
+        heading = self._heading(results)
+        await self._save_drawn(
+            self.pictures[kind, form],
+            self._file(heading.design, f"{kind}.{form}"),
+            MEDIA[form],
+            draw_picture,
+            kind,
+            form,
+            tuple(results),
+            heading,
+            assessment.base,
+            assessment.specification,
+        )
+
+    async def _save_drawn(self, pressed, name, media, write, *arguments):
+        """Save what takes a while to draw, off the event loop, its button at work meanwhile."""
+        pressed.loading = True
         try:
-            loop = asyncio.get_running_loop()
-            report = await loop.run_in_executor(workers(), write_report, study, summaries)
+            data = await asyncio.get_running_loop().run_in_executor(workers(), write, *arguments)
         except ValueError:
             notify("warning", NOT_SOLVED)
         else:
-            self._exchange.save(title, report, "text/html")
+            self._exchange.save(name, data, media)
         finally:
-            self.report.loading = False
+            pressed.loading = False
 
     def build(self):
         """Return what is put on the page."""
         groups = (
-            ("Share", LINK_WORDS, [self.copy]),
-            ("Study", STUDY_WORDS, [self.study_name, self.save, self.open]),
-            ("Report and curves", CURVE_WORDS, [self.report, self.gain, self.force]),
-            ("Plots", PLOT_WORDS, self.plots),
+            ("Share", LINK_WORDS, [self.copy], ()),
+            ("Study", STUDY_WORDS, [self.study_name, self.save, self.open], [self.message]),
+            ("Report and curves", CURVE_WORDS, [self.report, self.gain, self.force], ()),
+            ("Data sheet", SHEET_WORDS, [self._sheet_place, self.sheet], ()),
+            ("Pictures", PICTURE_WORDS, self.pictures.values(), ()),
         )
         return pmui.Column(
             *(
-                pmui.Paper(caption(title, words), pmui.FlexBox(*parts, margin=(0, 12, 10, 12)), **PAPER)
-                for title, words, parts in groups
+                pmui.Paper(
+                    caption(title, words), pmui.FlexBox(*parts, margin=(0, 12, 10, 12)), *below, **PAPER
+                )
+                for title, words, parts, below in groups
             ),
-            self.message,
             sizing_mode="stretch_width",
             margin=(0, 8, 8, 8),
         )
 
 
+# plots are slow to load, and nobody waits for them who wants none
+
+
 def write_report(study, summaries):
     """Return the report of a study, as of today (str)."""
-    # plots are slow to load, and nobody waits for them who wants no report
     from dashboard.report.html_report import html_report
 
     return html_report(study, summaries, date=datetime.date.today(), version=tig.__version__)
+
+
+def write_sheet(result, heading, specification, source):
+    """Return the data sheet of a design (str)."""
+    from dashboard.report.data_sheet import data_sheet
+
+    return data_sheet(result, heading, specification, source)
+
+
+def draw_picture(kind, form, results, heading, base, specification):
+    """Return a picture as a file (bytes)."""
+    from dashboard.report.pictures import picture
+
+    return picture(kind, form, results, heading, base=base, specification=specification)
 
 
 def copy_button():
@@ -154,11 +257,13 @@ def button(label, icon, **kind):
     return pmui.Button(label=label, icon=icon, size="small", variant="outlined", margin=(6, 8, 6, 0), **kind)
 
 
-PLOTS = (
-    ("insertion_gain_figure", "Insertion gain", "gain"),
-    ("force_figure", "Force", "force"),
-)
-"""Name of each plot's figure, what it is called, and how its file is named."""
+PICTURES = (("gain", "Insertion gain"), ("difference", "Difference"), ("force", "Force"))
+"""Kinds of pictures, and what each is called on its buttons."""
+
+MEDIA = {"png": "image/png", "svg": "image/svg+xml"}
+"""Media type of each form of picture."""
+
+SELECT_WIDTH = 280
 
 LINK_WORDS = (
     "the address bar holds the design, the pinned designs and the view; "
@@ -166,5 +271,6 @@ LINK_WORDS = (
 )
 STUDY_WORDS = "one file that people can read: designs, pinned designs, specification, source"
 CURVE_WORDS = "of this design and of the pinned designs that are shown"
-PLOT_WORDS = "as they are on the screen"
+SHEET_WORDS = "one page of A4 on one design: verdict, insertion gain, inputs, natural frequencies"
+PICTURE_WORDS = "for other reports: title, study, definition, legend and date, 2400 points wide"
 NOT_SOLVED = "There is nothing to report yet: wait until the current design is solved."

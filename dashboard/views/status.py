@@ -47,14 +47,14 @@ class Status(Viewer):
 
     def __panel__(self):
         """Return what is put on the page."""
-        return pmui.Row(
+        return pn.Row(
             self.text,
             self.progress,
             self.stop,
             self.solve,
             sizing_mode="stretch_width",
             height=theme.STATUS_HEIGHT,
-            margin=(4, 8, 0, 8),
+            margin=0,
         )
 
 

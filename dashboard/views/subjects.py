@@ -254,8 +254,8 @@ class Damping(Subject):
 
     def __init__(self, outcome, definition):
         super().__init__(outcome, definition)
-        self.stiffness = DampingFigure("taught_stiffness", "Stiffness over that at 50 Hz", "top_left")
-        self.loss_factor = DampingFigure("taught_loss_factor", "Loss factor", "bottom_left")
+        self.stiffness = DampingFigure("taught_stiffness", "Stiffness over that at 50 Hz")
+        self.loss_factor = DampingFigure("taught_loss_factor", "Loss factor")
         self.gain = BandsFigure("gain_by_loss", self.CURVES)
         self.words = words()
         self._follow()

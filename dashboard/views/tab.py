@@ -34,6 +34,17 @@ class Tab(Viewer):
         """Return what is put on the page."""
         raise NotImplementedError
 
+    def fill(self, place):
+        """Put the view into its place; between two steps the server may have other work to do.
+
+        Parameters
+        ----------
+        place : panel.Column
+            Where the view goes.
+        """
+        place.objects = [self]
+        yield
+
     def __panel__(self):
         """Return what is put on the page."""
         return self.build()

@@ -9,7 +9,7 @@ import panel as pn
 from panel.viewable import Viewer
 
 from dashboard import theme
-from dashboard.views.components import swatch_svg
+from dashboard.figures.swatches import swatch_svg
 
 NONE_GIVEN = "No specification yet: type one below, paste it, or open a CSV file."
 

@@ -60,8 +60,8 @@ class Verify(Tab):
         self.receptance = ReceptanceFigure()
         self.time_step = TimeStepFigure()
         self.element = ElementFigure()
-        self.stiffness = DampingFigure("stiffness", "Stiffness over that at 50 Hz", "top_left")
-        self.loss_factor = DampingFigure("loss_factor", "Loss factor", "bottom_left")
+        self.stiffness = DampingFigure("stiffness", "Stiffness over that at 50 Hz")
+        self.loss_factor = DampingFigure("loss_factor", "Loss factor")
         figures = (
             self.comparison,
             self.difference,

@@ -3,6 +3,8 @@
 Run with ``python -m pip install -e ".[dev]"`` and ``pytest tests/benchmarks/bench_dashboard.py``.
 """
 
+import itertools
+import json
 import subprocess
 import sys
 import time
@@ -15,8 +17,9 @@ from bokeh.document import Document
 from bokeh.protocol import Protocol
 
 import trackig_core as tig
+from dashboard import app
 from dashboard.compute.pinned import PinnedSummaries
-from dashboard.compute.workers import MOVING, shared_store, solve_summary
+from dashboard.compute.workers import AT_REST, MOVING, shared_store, solve_summary
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
@@ -72,6 +75,71 @@ def test_a_frame_on_the_server(benchmark, tell):
 
     benchmark(frame)
     tell(benchmark.stats["median"])
+
+
+def opening():
+    """Open a page as a session does, without one, and return the processor time of each piece [ms].
+
+    Pieces are what the event loop does without a break.
+    """
+    pieces, parts, events = [], [], []
+
+    def timed(action):
+        began = time.process_time()
+        result = action()
+        pieces.append(1000 * (time.process_time() - began))
+        return result
+
+    def step(steps, end):
+        events.clear()
+        done = next(steps, end)
+        if events:
+            Protocol().create("PATCH-DOC", events)
+        return done is not end
+
+    in_turns, app.in_turns = app.in_turns, lambda steps, _: parts.append(steps)
+    document, end = Document(), object()
+    try:
+        timed(lambda: app.build().server_doc(document, location=False))
+    finally:
+        app.in_turns = in_turns
+    timed(document.to_json)
+    document.on_change(events.append)
+    steps = itertools.chain(*parts)
+    while timed(lambda: step(steps, end)):
+        pass
+    return pieces
+
+
+def openings(rehearsed, count=5):
+    """Print the pieces of several openings in a fresh process, and the time of a paper run [ms]."""
+    tig.compile_kernels()
+    shared_store().request((OPENING, AT_REST)).future.result()
+    if rehearsed:
+        app.rehearse()
+    found = [opening() for _ in range(count)]
+    runs = []
+    for _ in range(3):
+        began = time.process_time()
+        tig.solve(OPENING)
+        runs.append(1000 * (time.process_time() - began))
+    print(json.dumps([found, min(runs)]))  # noqa: T201
+
+
+@pytest.mark.parametrize("rehearsed", [False, True], ids=["no rehearsal", "rehearsed"])
+def test_opening(rehearsed, tell, remark):
+    """What a page costs the server until all of it is there: the first of a process, and later ones."""
+    code = f"from tests.benchmarks.bench_dashboard import openings; openings({rehearsed})"
+    output = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
+    found, run = json.loads(output.splitlines()[-1])
+    warm = [min(pieces) for pieces in zip(*found[1:], strict=True)]
+    for name, pieces in (("first", found[0]), ("later", warm)):
+        which = f"opening, {name} page{', rehearsed' if rehearsed else ''}"
+        tell(sum(pieces) / 1000, which)
+        remark(
+            f"{which}: {sum(pieces):.0f} ms, {sum(pieces) / run:.2f} paper runs, "
+            f"at a stretch {max(pieces):.0f} ms"
+        )
 
 
 @pytest.mark.browser

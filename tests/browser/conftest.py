@@ -29,7 +29,9 @@ SOLVED = re.compile("Paper's run|Live run")
 def wait_until_solved(page, timeout=60_000):
     """Wait until a page stands still, and shows its design solved."""
     page.wait_for_function("() => window.Bokeh?.documents?.[0]?.is_idle", timeout=timeout)
+    # the status line comes last, after the view in the open tab
     expect(page.get_by_role("status").filter(has_text=SOLVED).first).to_be_visible(timeout=timeout)
+    page.wait_for_function("() => Bokeh.documents[0].is_idle", timeout=timeout)
 
 
 def wait_until_at_rest(page):
@@ -201,6 +203,12 @@ class Reader:
 
     def open(self, width=1440, height=900, query=""):
         """Open the dashboard in a session of its own."""
+        page = self.open_at_once(width, height, query)
+        wait_until_solved(page)
+        return page
+
+    def open_at_once(self, width=1440, height=900, query=""):
+        """Open the dashboard, and wait for nothing that it shows."""
         page = self._context.new_page()
         page.set_viewport_size({"width": width, "height": height})
         page.set_default_timeout(60_000)
@@ -208,8 +216,7 @@ class Reader:
         page.on("websocket", lambda websocket: self._requested.append(websocket.url))
         page.on("pageerror", lambda error: self._complaints.append(str(error)))
         page.on("console", self._listen)
-        page.goto(self._address + query)
-        wait_until_solved(page)
+        page.goto(self._address + query, wait_until="commit")
         return page
 
     def keep(self, width=1440, height=900):

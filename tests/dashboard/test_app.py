@@ -2,6 +2,7 @@
 
 import asyncio
 import runpy
+from concurrent.futures import Future
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -39,6 +40,7 @@ TABS = {
     "explore": "Explore",
     "compare": "Compare",
     "specification": "Specification",
+    "decide": "Decide",
     "level": "Received level",
     "track": "Track",
     "learn": "Learn",
@@ -141,6 +143,7 @@ class FakeStore:
 
     def request(self, key):
         self.requested.append(key)
+        return SimpleNamespace(future=Future())
 
     def close(self):
         self.closed = True

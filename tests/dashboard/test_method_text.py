@@ -21,8 +21,21 @@ def test_every_equation_stands_between_its_own_signs():
     assert len(EQUATIONS) > 10
     assert TEXT.count("$$") == 2 * len(EQUATIONS)
     outside = re.sub(r"\$\$.*?\$\$", "", TEXT, flags=re.DOTALL)
-    assert "$" not in outside
-    assert "\\" not in outside
+    inline = re.sub(r"\$[^$\n]+\$", "", outside)
+    assert len(outside) - len(inline) > 400
+    assert "$" not in inline
+    assert "\\" not in inline
+
+
+def test_no_symbol_is_printed_as_it_is_typed():
+    """A name with an underscore, or a lone italic letter, is a symbol: it belongs between dollar signs."""
+    outside = re.sub(r"\$\$.*?\$\$|\$[^$\n]+\$", "", TEXT, flags=re.DOTALL)
+    assert re.findall(r"\b\w_\w+|\*\w\*", outside) == []
+
+
+def test_no_row_of_a_table_is_cut_by_a_formula():
+    for row in re.findall(r"^\|.*\|$", TEXT, re.MULTILINE):
+        assert row.count("|") == 3, row
 
 
 @pytest.mark.parametrize("equation", EQUATIONS)

@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trackig_core.arrays import BoolArray, ComplexArray, IntArray, RealArray
+from trackig_core.frequency_domain.timoshenko import FreeBeam
 from trackig_core.track.design import ELEMENTS_PER_BAY, TrackDesign, axle_elements
 
 if TYPE_CHECKING:
@@ -65,6 +66,9 @@ def bay_shapes(design: TrackDesign, rail: Waves, per_bay: int) -> ComplexArray:
     numpy.ndarray of complex (per_bay, 2, frequencies)
         Displacement of the elements [-].
     """
+    if rail.rail == "timoshenko":
+        beam = FreeBeam.of(design.rail, rail.frequency_squared)
+        return beam.bay_shapes(design.fastener_spacing, rail.multipliers, per_bay)
     dx = design.fastener_spacing / per_bay
     inertia = design.rail.mass_per_metre * dx**4 / design.rail.bending_stiffness * rail.frequency_squared
     multipliers = rail.multipliers

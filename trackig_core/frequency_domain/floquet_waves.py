@@ -20,6 +20,7 @@ from trackig_core.arrays import AnyArray, ComplexArray, RealArray
 from trackig_core.frequency_domain import kernels
 from trackig_core.frequency_domain.axles import contact_forces, loaded_rail
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
+from trackig_core.frequency_domain.timoshenko import FreeBeam
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.results import ForceSpectrum
 from trackig_core.track.design import ONE_AXLE
@@ -47,6 +48,8 @@ class Waves:
         Force into the ground per displacement of the rail over a support.
     bays : int or None
         Supports around the ring, or None.
+    rail : str
+        Beam that the rail is, as in the lattice.
     """
 
     frequency: RealArray
@@ -55,6 +58,7 @@ class Waves:
     amplitudes: ComplexArray
     transfer: ComplexArray
     bays: int | None
+    rail: str = "euler"
 
     def receptance(self, support: ArrayLike = 0) -> ComplexArray:
         """Return the rail displacement over a support per unit force over support 0.
@@ -151,19 +155,24 @@ def waves(design: Track, frequency: ArrayLike, lattice: Lattice = INFINITE) -> W
         raise ValueError("frequencies must be finite and greater than 0 Hz")
     model = track_model(design)
     squared, supports = lattice.frequency_squared(frequency), model.supports(frequency, lattice)
-    dx = model.design.fastener_spacing / lattice.elements_per_bay
+    rail, spacing = model.design.rail, model.design.fastener_spacing
+    dx = spacing / lattice.elements_per_bay
     multipliers = np.empty((2, frequency.size), dtype=complex)
     amplitudes = np.empty_like(multipliers)
-    kernels.bay_waves(
-        squared,
-        supports.stiffness,
-        model.design.rail.bending_stiffness / dx**3,
-        model.design.rail.mass_per_metre * dx,
-        lattice.elements_per_bay,
-        multipliers,
-        amplitudes,
-    )
-    return Waves(frequency, squared, multipliers, amplitudes, supports.transfer, lattice.bays)
+    if lattice.rail == "timoshenko":
+        poles, strengths = FreeBeam.of(rail, squared).over_supports(spacing)
+        kernels.beam_waves(poles, strengths, supports.stiffness, multipliers, amplitudes)
+    else:
+        kernels.bay_waves(
+            squared,
+            supports.stiffness,
+            rail.bending_stiffness / dx**3,
+            rail.mass_per_metre * dx,
+            lattice.elements_per_bay,
+            multipliers,
+            amplitudes,
+        )
+    return Waves(frequency, squared, multipliers, amplitudes, supports.transfer, lattice.bays, lattice.rail)
 
 
 def receptance(

@@ -52,25 +52,80 @@ def bay_waves(
         c2, u2 = chebyshev_excess(-0.5 * r, per_bay)
         p1 = -u1 / (2 * r * bending)
         p2 = u2 / (2 * r * bending)
-        # numerator n0 - n1 w and denominator w^2 - d1 w + d0 of the receptance, w = y - 2
-        n0 = p1 * c2 + p2 * c1
-        n1 = p1 + p2
-        stiffness = support_stiffness[i]
-        d1 = c1 + c2 + stiffness * n1
-        d0 = c1 * c2 + stiffness * n0
-        root = (0.25 * d1 * d1 - d0) ** 0.5
-        # the larger root by addition, the smaller from their product: neither cancels
-        if (root * d1.conjugate()).real < 0:
-            root = -root
-        large = 0.5 * d1 + root
-        for wave in range(2):
-            w = large if wave == 0 else d0 / large
-            share = (n1 * w - n0) / (2.0 * root if wave == 0 else -2.0 * root)
-            half = (w * (1.0 + 0.25 * w)) ** 0.5
-            if (half * (1.0 + 0.5 * w).conjugate()).real < 0:
-                half = -half
-            multipliers[wave, i] = 1.0 / (1.0 + 0.5 * w + half)
-            amplitudes[wave, i] = share / (2.0 * half)
+        wave_1, wave_2 = supported_waves(c1, p1, c2, p2, support_stiffness[i])
+        multipliers[0, i], amplitudes[0, i] = wave_1
+        multipliers[1, i], amplitudes[1, i] = wave_2
+
+
+@njit(nogil=True, cache=True)
+def beam_waves(
+    poles: RealArray,
+    strengths: RealArray,
+    support_stiffness: ComplexArray,
+    multipliers: ComplexArray,
+    amplitudes: ComplexArray,
+) -> None:
+    """Solve a supported beam whose free waves are known: two waves that decay from bay to bay.
+
+    Parameters
+    ----------
+    poles, strengths : numpy.ndarray (2, frequencies)
+        The free beam under equal forces over all supports, of phase k spacing from one to the next, moves
+        by the sum of strength [m/N] over (pole - w) [-], w = 2 cos(k spacing) - 2.
+    support_stiffness : numpy.ndarray of complex (frequencies,)
+        Dynamic stiffness of a support [N/m].
+    multipliers, amplitudes : numpy.ndarray of complex (2, frequencies)
+        Filled, as by :func:`bay_waves`.
+    """
+    for i in range(support_stiffness.size):
+        wave_1, wave_2 = supported_waves(
+            poles[0, i], strengths[0, i], poles[1, i], strengths[1, i], support_stiffness[i]
+        )
+        multipliers[0, i], amplitudes[0, i] = wave_1
+        multipliers[1, i], amplitudes[1, i] = wave_2
+
+
+@njit(nogil=True, cache=True)
+def supported_waves(
+    c1: float, p1: float, c2: float, p2: float, stiffness: complex
+) -> tuple[tuple[complex, complex], tuple[complex, complex]]:
+    """Return factor from bay to bay [-] and share in the receptance [m/N] of both waves.
+
+    Parameters
+    ----------
+    c1, p1, c2, p2 : float
+        Poles [-] and strengths [m/N] of the free rail under forces over all supports.
+    stiffness : complex
+        Dynamic stiffness of a support [N/m].
+
+    Returns
+    -------
+    tuple of tuple of complex
+        (factor, share) of either wave.
+    """
+    # numerator n0 - n1 w and denominator w^2 - d1 w + d0 of the receptance, w = y - 2
+    n0 = p1 * c2 + p2 * c1
+    n1 = p1 + p2
+    d1 = c1 + c2 + stiffness * n1
+    d0 = c1 * c2 + stiffness * n0
+    root = (0.25 * d1 * d1 - d0) ** 0.5
+    # the larger root by addition, the smaller from their product: neither cancels
+    if (root * d1.conjugate()).real < 0:
+        root = -root
+    large = 0.5 * d1 + root
+    return (
+        decaying_wave(large, (n1 * large - n0) / (2.0 * root)),
+        decaying_wave(d0 / large, (n1 * (d0 / large) - n0) / (-2.0 * root)),
+    )
+
+
+@njit(nogil=True, cache=True)
+def decaying_wave(w: complex, share: complex) -> tuple[complex, complex]:
+    """Return factor from bay to bay and share in the receptance of the wave of w = y - 2."""
+    half = (w * (1.0 + 0.25 * w)) ** 0.5
+    if (half * (1.0 + 0.5 * w).conjugate()).real < 0:
+        half = -half
+    return 1.0 / (1.0 + 0.5 * w + half), share / (2.0 * half)
 
 
 @njit(nogil=True, cache=True)

@@ -12,6 +12,9 @@ import numpy as np
 from trackig_core.arrays import ComplexArray, RealArray
 from trackig_core.track.viscoelastic_law import Relaxation
 
+RAIL_THEORIES = ("euler", "timoshenko")
+"""Beams that a rail may be."""
+
 
 @dataclass(frozen=True)
 class Lattice:
@@ -27,6 +30,10 @@ class Lattice:
         Time step of the scheme whose z-transform is solved [s]; None for continuous time.
     memory_order : int
         Rule of the damping memory in discrete time: 1 (the paper's) or 2.
+    rail : str
+        ``"euler"``: a rail that only bends, made of elements. ``"timoshenko"``: a rail that also shears and
+        has rotary inertia, exact between supports, in continuous time; elements only say where it is looked
+        at.
 
     Raises
     ------
@@ -38,6 +45,7 @@ class Lattice:
     bays: int | None = None
     time_step: float | None = None
     memory_order: int = 1
+    rail: str = "euler"
 
     def __post_init__(self) -> None:
         """Check that there is such a lattice."""
@@ -49,6 +57,12 @@ class Lattice:
             raise ValueError(f"time_step = {self.time_step!r}: give None or a time greater than 0 s")
         if self.memory_order not in (1, 2):
             raise ValueError(f"memory_order = {self.memory_order!r}: give 1 or 2")
+        if self.rail not in RAIL_THEORIES:
+            raise ValueError(f"rail = {self.rail!r}: give {' or '.join(map(repr, RAIL_THEORIES))}")
+        if self.rail != "euler" and self.time_step is not None:
+            raise ValueError(
+                f"rail = {self.rail!r} with a time step: only the rail that bends is stepped in time"
+            )
 
     def frequency_squared(self, frequency: RealArray) -> RealArray:
         """Return the square of the angular frequency as the time stepping sees it.

@@ -2,6 +2,7 @@
 
 from trackig_core.levels.band_tables import BandTableError
 from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.levels.measured_gain import MeasuredGain, MeasuredGainError
 from trackig_core.levels.source import (
     A_WEIGHTING,
     LevelDifference,
@@ -16,6 +17,8 @@ __all__ = [
     "A_WEIGHTING",
     "BandTableError",
     "LevelDifference",
+    "MeasuredGain",
+    "MeasuredGainError",
     "SourceError",
     "SourceSpectrum",
     "Specification",

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from trackig_core.decide.questions import Answer
+from trackig_core.levels.measured_gain import MeasuredGain
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
@@ -12,6 +13,9 @@ from trackig_core.track.design import TrackDesign
 
 MOST_BYTES = toml_format.MOST_BYTES
 """Size that a file may have [bytes]."""
+
+MOST_MEASURED = 4
+"""Curves from elsewhere that a study may have [-]."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,8 @@ class Study:
         Key of ``PRESETS`` from which the current design departs, if from any.
     answers : iterable of Answer
         Questions that were asked about designs, and what came out.
+    measured : iterable of MeasuredGain
+        Up to four curves from elsewhere, beside those computed.
 
     Raises
     ------
@@ -51,6 +57,7 @@ class Study:
     name: str = toml_format.UNTITLED
     preset: str | None = None
     answers: tuple[Answer, ...] = ()
+    measured: tuple[MeasuredGain, ...] = ()
 
     def __post_init__(self) -> None:
         """Check every value once."""
@@ -75,6 +82,11 @@ class Study:
         if self.view.base is not None and self.view.base >= len(self.pinned):
             raise StudyError(f"{self.view.base}: there is no such pinned design", "view.base")
         check_preset(self.preset)
+        object.__setattr__(self, "measured", tuple(self.measured))
+        if len(self.measured) > MOST_MEASURED:
+            raise StudyError(f"{len(self.measured)} curves: give at most {MOST_MEASURED}", "measured")
+        for number, gain in enumerate(self.measured):
+            check_kind(gain, MeasuredGain, f"measured[{number}]")
 
     @classmethod
     def from_toml(cls, data: str | bytes) -> "Study":

@@ -22,6 +22,7 @@ from tomlkit.items import Array, Float, Table, Trivia
 
 from trackig_core.decide.questions import Answer, Question
 from trackig_core.levels.band_tables import BandTable, BandTableError
+from trackig_core.levels.measured_gain import MeasuredGain
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
@@ -100,6 +101,9 @@ _CURVE_ROWS = {
 }
 
 _LEVEL_ROWS = "rows of one-third-octave band [Hz], level [dB]"
+
+_MEASURED_ROWS = "ig_dB"
+"""Key of the rows of a curve from elsewhere."""
 
 _TABLES: dict[str, tuple[type[Specification] | type[SourceSpectrum], str]] = {
     "specification": (Specification, "ig_max_dB"),
@@ -208,6 +212,7 @@ def read(data: str | bytes) -> dict[str, Any]:
         "preset": section.take("preset"),
         "design": _design(section.section("design")),
         "view": view,
+        "measured": _measured(section),
         "pinned": [_pinned(_Section(each, f"pinned[{number}]")) for number, each in enumerate(pinned)],
         "answers": _answers(section),
         **tables,
@@ -258,6 +263,24 @@ def _table(
     except BandTableError as error:
         path = section.path if error.line is None else section.under(key)
         raise StudyError(str(error), path) from None
+
+
+def _measured(study: _Section) -> list[MeasuredGain]:
+    """Return the curves from elsewhere."""
+    given = study.take("measured", [])
+    if not isinstance(given, list):
+        raise StudyError(f"{brief(given)}: write each curve under [[measured]]", "measured")
+    curves = []
+    for number, each in enumerate(given):
+        section = _Section(each, f"measured[{number}]")
+        points, name = section.need(_MEASURED_ROWS), section.take("name", MeasuredGain.name)
+        section.close()
+        try:
+            curves.append(MeasuredGain(points, name))
+        except BandTableError as error:
+            path = section.path if error.line is None else section.under(_MEASURED_ROWS)
+            raise StudyError(str(error), path) from None
+    return curves
 
 
 def _limits(section: _Section) -> dict[str, Any]:
@@ -371,6 +394,11 @@ def written(study: Study) -> str:
     for name, (_, key) in _TABLES.items():
         if getattr(study, name) is not None:
             document.add(name, _written_table(getattr(study, name), key))
+    if study.measured:
+        measured = tomlkit.aot()
+        for curve in study.measured:
+            measured.append(_written_table(curve, _MEASURED_ROWS))
+        document.add("measured", measured)
     if study.pinned:
         pinned = tomlkit.aot()
         for each in study.pinned:

@@ -11,6 +11,16 @@ from trackig_core.track.fields import RAIL_FIELDS, DesignError, check_number
 STEEL_MODULUS = 210e9
 """Young's modulus of rail steel [Pa]."""
 
+SHEAR_MODULUS = 81e9
+"""Shear modulus of rail steel [Pa]."""
+
+STEEL_DENSITY = 7850.0
+"""Density of rail steel [kg/m3]."""
+
+SHEAR_COEFFICIENT = 0.4
+"""Part of a rail's section that carries shear, kappa [-]: flat-bottom rails, D. J. Thompson, *Railway Noise
+and Vibration* (2009), chapter 3."""
+
 
 @dataclass(frozen=True)
 class Rail:

@@ -3,8 +3,10 @@
 // What is kept is never overwritten before it was offered to a server that does not know it.
 
 const MEMORY = "trackig"
-const PATIENCE = 8000 // ms until a plot in another tab must have been drawn
 const LOOK_EVERY = 500 // ms between looks whether the server is back
+const RECOLOURED = 100 // ms after which recolouring has begun
+const GAP = 40 // ms between looks whether the page is at work
+const PATIENCE = 1500 // ms after which the page is shown as it is; browsers give up after 4000
 
 const pause = (time) => new Promise((resolve) => setTimeout(resolve, time))
 
@@ -80,26 +82,24 @@ function choose(model, purpose, accept, most) {
   input.click()
 }
 
-function drawn(name) {
-  const figure = Bokeh.documents.map((each) => each.get_model_by_name(name)).find((each) => each != null)
-  const view = figure === undefined ? null : Bokeh.index.find_one(figure)
-  return view != null && view.el.isConnected && view.el.getBoundingClientRect().width > 0 ? view : null
-}
-
-async function savePlot(model, name, format, file) {
-  const elsewhere = drawn(name) === null
-  if (elsewhere) model.send_msg({kind: "show", data: name})
-  for (let waited = 0; waited < PATIENCE; waited += 100) {
-    const view = drawn(name)
-    if (view !== null && view.bbox.width > 0) {
-      const layer = view.export(format, true)
-      save(file, await layer.to_blob())
-      if (elsewhere) model.send_msg({kind: "back"})
-      return
+// When the theme is switched, Panel recolours text at once and the paper behind it part by part, some seconds later on
+// a slow machine: white on white. Until nothing is left to do, the picture stays as it was.
+function switchThemeAsAWhole(event) {
+  const toggle = event.composedPath().find((each) => each.getAttribute?.("aria-label") === "Toggle theme")
+  if (toggle === undefined || !event.isTrusted || document.startViewTransition === undefined) return
+  event.stopImmediatePropagation()
+  event.preventDefault()
+  const change = document.startViewTransition(async () => {
+    toggle.click()
+    await pause(RECOLOURED)
+    const patience = performance.now() + PATIENCE
+    for (let idle = 0; idle < 3 && performance.now() < patience; ) {
+      const before = performance.now()
+      await pause(GAP)
+      idle = performance.now() - before < 2 * GAP ? idle + 1 : 0
     }
-    await pause(100)
-  }
-  model.send_msg({kind: "not_drawn", data: name})
+  })
+  change.updateCallbackDone.then(() => change.skipTransition())
 }
 
 // Bokeh would take up a session where it was, but loses the arrays in it, and would fill this page with that of a
@@ -126,13 +126,13 @@ export function render({model, view}) {
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
     if (message.kind === "introduce") answer()
-    if (message.kind === "save") save(message.name, new Blob([message.text], {type: message.type}))
+    if (message.kind === "save") save(message.name, new Blob([message.data], {type: message.type}))
   })
   view.model.document.on_event("connection_lost", comeBack)
+  document.addEventListener("click", switchThemeAsAWhole, true)
   window.trackig = {
     copyLink: () => copyLink(model),
     choose: (...rest) => choose(model, ...rest),
-    savePlot: (...rest) => savePlot(model, ...rest),
   }
   resume(model)
   return document.createElement("span")

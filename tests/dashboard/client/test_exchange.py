@@ -2,11 +2,13 @@
 
 import asyncio
 
+import panel as pn
 import pytest
+from panel_material_ui.notifications import NotificationArea
 
 import trackig_core as tig
 from dashboard.client import exchange as exchange_module
-from dashboard.client.exchange import Exchange, opening, saving
+from dashboard.client.exchange import Exchange, opening
 
 LIMITS = tig.Specification([(63, -3.0)])
 
@@ -91,9 +93,6 @@ def test_a_memory_that_is_no_study_changes_nothing_and_is_told(session, exchange
         {"kind": "study", "data": "text where bytes are due"},
         {"kind": "specification"},
         {"kind": "__class__", "data": b""},
-        {"kind": "show", "data": "no_such_figure"},
-        {"kind": "show", "data": ["insertion_gain_figure"]},
-        {"kind": "back"},
     ],
 )
 def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
@@ -104,19 +103,17 @@ def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
     assert (opened, sent, session.snapshot.query()) == ([], [], before)
 
 
-def test_a_plot_in_another_tab_is_shown_and_left_again(session, exchange):
-    tabs = []
-    session.snapshot.param.watch(lambda event: tabs.append(event.new), "tab")
-
-    async def run():
-        session.snapshot.tab = "keep"
-        exchange.handle_message({"kind": "show", "data": "insertion_gain_figure"})
-        exchange.handle_message({"kind": "back"})
-
-    asyncio.run(run())
-    assert tabs == ["keep", "explore", "keep"]
-
-
 def test_scripts_are_made_of_quoted_words():
     assert opening("source") == f'window.trackig.choose("source", ".csv,.txt,.tsv", {64 * 1024})'
-    assert saving("x", "svg", 'a"b') == 'window.trackig.savePlot("x", "svg", "a\\"b")'
+
+
+def test_a_success_takes_away_what_was_said_before_and_no_notification_covers_the_page(monkeypatch):
+    monkeypatch.setattr(pn.state.__class__, "notifications", NotificationArea())
+    exchange_module.notify("warning", "There is no room.")
+    exchange_module.notify("error", "It failed.")
+    area = pn.state.notifications
+    assert [each.message for each in area.notifications] == ["There is no room.", "It failed."]
+    exchange_module.notify("success", "It is open.")
+    assert [each.message for each in area.notifications] == ["It is open."]
+    assert area.position == "top-center"
+    assert area.notifications[0].duration < 5000

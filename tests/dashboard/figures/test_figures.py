@@ -1,6 +1,7 @@
 """Figures as plain data: what stands in their sources, and when axes move."""
 
 import dataclasses
+import html
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from dashboard import formats, theme
+from dashboard import formats
 from dashboard.figures.axes import nice_step, settled_range
+from dashboard.figures.comparison import BaseDifferenceFigure, GainsFigure, ReceivedLevelFigure
 from dashboard.figures.force import (
     POINTS_BEYOND,
     POINTS_IN_VIEW,
@@ -24,6 +26,7 @@ from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.session.pins import current_design
 from dashboard.session.results import DesignResult
 from dashboard.theme import MOST_PINNED
+from trackig_core.names import LONGEST_NAME
 
 # the least floats that there are would be lost when divided by a step
 ENDS = st.tuples(st.floats(-200, 200, allow_subnormal=False), st.floats(0.1, 200)).map(
@@ -118,7 +121,7 @@ def draw(gain, summary, preset=None, louder=0.0):
 
 def listed(figure):
     """Return what the legend lists."""
-    return [item.label.value for item in figure.model.legend[0].items if item.visible]
+    return list(figure.legend.listed)
 
 
 @pytest.mark.parametrize("preset", ["slab-track", "booted-block-low-mass"])
@@ -264,9 +267,8 @@ def test_an_outline_keeps_every_envelope_and_is_bounded(samples, start, width, s
 
 def test_both_forces_have_a_name_and_a_hover():
     force = ForceFigure()
-    names = [item.label.value for item in force.model.legend[0].items if item.visible]
-    assert names == ["all supports", "support under the wheel"]
-    assert len(force.model.select({"type": HoverTool})) == len(names)
+    assert listed(force) == ["all supports", "support under the wheel"]
+    assert len(force.model.select({"type": HoverTool})) == 2
 
 
 MARKUP = "<img src=x onerror=console.error(1)>"
@@ -279,7 +281,7 @@ def test_pinned_curves_are_drawn_and_named(gain, summary):
     for place, each in enumerate(pins):
         np.testing.assert_array_equal(gain.pins.data[f"pin_{place}"], each.levels)
     assert np.isnan(gain.pins.data["pin_2"]).all()
-    assert listed(gain) == ["this design", "a", formats.name_text(MARKUP, theme.LEGEND_NAME)]
+    assert listed(gain) == ["this design", "a", MARKUP]
     (hover,) = gain.model.select({"type": HoverTool})
     assert [name for name, _ in hover.tooltips][-2:] == ["a", MARKUP]
     gain.show(hand)
@@ -332,14 +334,42 @@ def test_pinned_forces_are_drawn_and_follow_a_zoom(summary):
     data, shown = force.pins[0].data, summary("slab-track")
     at = np.searchsorted(shown.time, data["time"].astype(float) - 1e-6)
     np.testing.assert_allclose(data["total"], shown.total_force[at], rtol=1e-5, atol=1e-6)
-    assert listed(force) == ["all supports", "support under the wheel", "slab"]
-    assert force.model.y_range.end >= shown.total_force.max()
+    assert listed(force)[:2] == ["all supports", "support under the wheel"]
     force.model._trigger_event(RangesUpdate(force.model, x0=1.0, x1=1.2, y0=0, y1=1))
     sent = force.pins[0].data["time"]
     expected = np.count_nonzero((shown.time >= 1.0) & (shown.time <= 1.2))
     assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
     force.show(hand)
     assert not len(force.pins[0].data["time"])
+
+
+def test_the_current_design_sets_the_scale_of_force_and_the_legend_says_what_leaves_it(summary):
+    force, alone = ForceFigure(), ForceFigure()
+    block, slab = summary("booted-block-low-mass"), summary("slab-track")
+    alone.show(current(block))
+    pins = (pinned(slab, "slab"), pinned(block, "the same"))
+    force.show(current(block), pins)
+    ends = (force.model.y_range.start, force.model.y_range.end)
+    assert ends == (alone.model.y_range.start, alone.model.y_range.end)
+    assert slab.total_force.max() > ends[1]
+    greatest, least = (formats.force_text(each) for each in (slab.total_force.max(), slab.total_force.min()))
+    assert listed(force)[2:] == [f"slab (cut off: reaches {greatest} and {least})", "the same"]
+    force.show(current(slab), pins)
+    assert listed(force)[2:] == ["slab", "the same"]
+
+
+def test_a_legend_stands_below_its_figure_with_whole_names_as_text(gain, summary):
+    name = "<b>forty characters of name, and no less"
+    assert len(name) == LONGEST_NAME
+    gain.show(current(summary("booted-block-low-mass")), (pinned(summary("slab-track"), name),))
+    assert list(gain.layout.children) == [gain.model, gain.legend.model]
+    assert f"<span>{html.escape(name)}</span>" in gain.legend.model.text
+    assert "<b>" not in gain.legend.model.text
+
+
+def test_no_legend_lies_over_curves(gain):
+    for figure in (gain, ForceFigure(), GainsFigure(), BaseDifferenceFigure(), ReceivedLevelFigure()):
+        assert not figure.model.legend
 
 
 def test_a_frame_sends_nothing_of_the_pins(gain, summary):

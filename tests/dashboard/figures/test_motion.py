@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from bokeh.models import Circle
 
 import trackig_core as tig
 from dashboard.figures import motion as figures
-from dashboard.figures.motion import FilmPlayer, ShapePlayer
+from dashboard.figures.motion import WHEEL_HEIGHT, FilmPlayer, ShapePlayer
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
 
@@ -83,3 +84,10 @@ def test_the_largest_movement_stays_in_the_drawing():
         reach = player.view.facts.data["scale"][0] * 1e6 * np.abs(motion.wheel).max()
         assert reach <= figures.LARGEST * (1 + 1e-9)
         assert figures.WHEEL_AT + figures.WHEEL_HEIGHT / 2 + reach <= figures.SEEN[1] + 0.05
+
+
+def test_the_wheel_is_round_in_every_window():
+    """Its radius is a height; a width along the track would be as wide as the window lets it."""
+    glyphs = [each.glyph for each in FilmPlayer().view.model.renderers]
+    (wheel,) = [glyph for glyph in glyphs if isinstance(glyph, Circle)]
+    assert (wheel.radius, wheel.radius_dimension) == (WHEEL_HEIGHT / 2, "y")

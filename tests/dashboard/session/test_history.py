@@ -126,3 +126,20 @@ def test_a_preset_is_one_step():
     inputs.take(history.undo())
     assert inputs.to_values() == tuned
     assert inputs.modified
+
+
+def test_a_gesture_is_one_step_however_slowly_it_is_told():
+    history = History(0)
+    for now, state in enumerate((1, 2, 3)):
+        history.note(state, ["mass"], 10.0 * now, gesture=1)
+    history.note(4, ["mass"], 100.0, gesture=2)
+    assert history.undo() == 3
+    assert history.undo() == 0
+    assert not history.can_undo
+
+
+def test_changes_of_no_gesture_are_told_apart_by_time():
+    history = History(0)
+    for now, state in enumerate((1, 2)):
+        history.note(state, ["mass"], 10.0 * now)
+    assert history.undo() == 1

@@ -6,7 +6,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.fields import INPUTS, NUMBERS, PHYSICAL, PRESET_LABELS, to_display, to_si
-from dashboard.session.inputs import DesignInputs, design_of, preset_values
+from dashboard.session.inputs import DesignInputs, InputError, design_of, preset_values, read_input
 from dashboard.session.results import SolutionSummary
 
 
@@ -193,3 +193,53 @@ def test_an_exact_picture_has_no_forces_over_time():
     summary = SolutionSummary.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.001)
     assert summary.solution.insertion_gain.shape == (21,)
     assert [summary.time, summary.loaded_support_force, summary.total_force, summary.step] == [None] * 4
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "value"),
+    [
+        ("pad_stiffness", "1e3", 1000),
+        ("pad_stiffness", "1_000", 1000),
+        ("pad_stiffness", "１２０", 120),
+        ("pad_stiffness", "120\N{NO-BREAK SPACE}MN/m", 120),
+        ("pad_stiffness", 123.45, 123.45),
+        ("boot_stiffness", "31,5", 31.5),
+        ("wheel_mass", "880kg", 880),
+        ("wheel_mass", "0.88 t", 880),
+        ("fastener_spacing", "600 mm", 0.6),
+        ("pad_loss_factor", "20 %", 0.2),
+        ("two_stage", False, False),
+        ("rail", "49E1", "49E1"),
+    ],
+)
+def test_what_people_type_is_read(name, given, value):
+    assert read_input(name, given) == value
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "words"),
+    [
+        ("wheel_mass", "", "give a number; this box takes 200 to 1500 kg"),
+        ("wheel_mass", "heavy", "'heavy' is no number; this box takes 200 to 1500 kg"),
+        ("wheel_mass", "880 kN", "kN is a unit of force; give kg"),
+        ("wheel_mass", "\N{MINUS SIGN}880", "give 200 to 1500 kg"),
+        ("wheel_mass", 1501, "give 200 to 1500 kg"),
+        ("wheel_mass", True, "give 200 to 1500 kg"),
+        ("pad_stiffness", "1,200", "may be 1200 or 1.200"),
+        ("pad_loss_factor", "0.6", "give 0.01 to 0.5"),
+        ("two_stage", 1, "choose one of what is offered"),
+        ("rail", "no rail", "choose one of what is offered"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_advice(name, given, words):
+    with pytest.raises(InputError) as refusal:
+        read_input(name, given)
+    assert words in str(refusal.value)
+
+
+def test_a_gesture_is_known_while_its_change_is_noted():
+    inputs, seen = DesignInputs(), []
+    inputs.param.watch(lambda *_: seen.append(inputs.gesture), "block_mass")
+    inputs.take_given({"block_mass": 60}, gesture=3)
+    inputs.block_mass = 70
+    assert seen == [3, None]

@@ -1,5 +1,8 @@
 """Designs side by side: the list of pins, the table, differences from a base, undo and redo, the drawing."""
 
+import dataclasses
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from bokeh.models import HoverTool
@@ -7,16 +10,17 @@ from bokeh.models import HoverTool
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.client.browser import Browser
+from dashboard.figures.swatches import swatch_svg
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
-from dashboard.session.results import Outcome
+from dashboard.session.results import DesignResult, Outcome
 from dashboard.session.steps import Steps
 from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
-from dashboard.views.components import swatch_svg
 from dashboard.views.design_bar import DesignBar
+from dashboard.views.likeness import Likeness, likeness_words
 from dashboard.views.track import Track
 
 MARKUP = "<img src=x onerror=console.error(1)>"
@@ -35,7 +39,9 @@ class Session:
         self.pinned = make_pictures(summaries=summaries)
         self.assessment = Assessment(self.inputs, self.outcome, self.definition, self.pins, self.pinned)
         self.asked = []
-        self.view = Compare(self.inputs, self.pins, self.assessment, lambda: self.asked.append(True))
+        self.view = Compare(
+            self.inputs, self.pins, self.definition, self.assessment, lambda: self.asked.append(True)
+        )
         self.view.look(active=True)
 
     def level(self, key):
@@ -90,7 +96,7 @@ def test_bands_are_those_that_were_chosen(session):
 
 
 def test_differences_are_drawn_from_the_base(session):
-    data = session.view.differences.differences
+    data = session.view.differences.curves
     own = session.level("booted-block-low-mass")
     np.testing.assert_allclose(data.data["pin_0"], session.level("slab-track") - own, atol=1e-9)
     np.testing.assert_allclose(data.data["pin_1"], session.level("booted-sleeper") - own, atol=1e-9)
@@ -99,7 +105,7 @@ def test_differences_are_drawn_from_the_base(session):
     slab = session.level("slab-track")
     np.testing.assert_allclose(data.data["pin_0"], session.level("booted-sleeper") - slab, atol=1e-9)
     np.testing.assert_allclose(data.data[f"pin_{MOST_PINNED}"], own - slab, atol=1e-9)
-    names = [item.label.value for item in session.view.differences.model.legend[0].items if item.visible]
+    names = list(session.view.differences.legend.listed)
     assert names == ["this design", "booted-sleeper"]
     (hover,) = session.view.differences.model.select({"type": HoverTool})
     assert [name for name, _ in hover.tooltips] == ["band", *names]
@@ -108,7 +114,7 @@ def test_differences_are_drawn_from_the_base(session):
 def test_a_base_that_is_not_solved_yet_says_no_differences(session):
     new = session.pins.add(tig.PRESETS["slab-track"].replace(wheel_mass=700.0), "new")
     session.pins.choose_base(new.key)
-    assert np.isnan(session.view.differences.differences.data["pin_0"]).all()
+    assert np.isnan(session.view.differences.curves.data["pin_0"]).all()
     assert [cell[0] for cell in session.row("63 Hz")][-1] == "–"
     assert all(len(cell) == 1 for cell in session.row("63 Hz"))
 
@@ -133,7 +139,7 @@ def test_hidden_pins_are_neither_listed_nor_drawn(session):
     session.view.list.rows[session.slab.key].shown.value = False
     assert not session.pins[session.slab.key].shown
     assert "slab-track" not in session.table
-    names = [item.label.value for item in session.view.differences.model.legend[0].items if item.visible]
+    names = list(session.view.differences.legend.listed)
     assert names == ["booted-sleeper"]
 
 
@@ -286,3 +292,54 @@ def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     track.look(active=True)
     assert "kg" in track.drawing.object
     assert "111 kg" not in track.drawing.object
+
+
+def test_unlike_wheels_are_told_and_set_alike_as_one_change(session):
+    view = session.view.likeness
+    assert view.row.visible
+    assert "unsprung wheel mass (450, 880 and 950 kg)" in view.text.object
+    session.pins.choose_base(session.sleeper.key)
+    changes = []
+    session.pins.param.watch(lambda event: changes.append(event.new), "pinned")
+    view.set_alike.param.trigger("clicks")
+    assert len(changes) == 1
+    assert {pin.design.wheel_mass for pin in session.pins.pinned} == {session.inputs.wheel_mass}
+    assert [pin.name for pin in session.pins.pinned] == list(KEYS)
+    assert session.pins[session.pins.base].name == KEYS[1]
+    assert not {pin.key for pin in session.pins.pinned} & {session.slab.key, session.sleeper.key}
+    assert not view.row.visible
+
+
+def test_designs_that_differ_in_their_supports_alone_are_not_warned_of():
+    block = tig.PRESETS["booted-block-low-mass"]
+    assert likeness_words([block, block.replace(boot_stiffness=60e6, fastener_spacing=0.7)]) == ""
+    other = block.replace(rail=tig.RAILS["49E1"], contact_stiffness=1e9)
+    words = likeness_words([block, other])
+    assert "contact stiffness (1000 and 1200 kN/mm) and rail (49E1 and 60)" in words
+
+
+def test_names_of_rails_are_text_in_a_warning():
+    block = tig.PRESETS["booted-block-low-mass"]
+    own = block.replace(rail=dataclasses.replace(block.rail, name=MARKUP))
+    results = [DesignResult(tig.PinnedDesign("one", design)) for design in (block, own)]
+    warning = Likeness(None, SimpleNamespace(results=results))
+    warning.show()
+    assert "&lt;img" in warning.text.object
+    assert "<img" not in warning.text.object
+
+
+def test_hidden_designs_are_no_cause_for_a_warning(session):
+    for pin in session.pins.pinned:
+        session.pins.show(pin.key, shown=False)
+    assert not session.view.likeness.row.visible
+
+
+def test_insertion_gain_itself_is_drawn_beside_its_differences(session):
+    gains = session.view.gains
+    data = gains.curves.data
+    np.testing.assert_array_equal(data["pin_8"], session.level("booted-block-low-mass"))
+    np.testing.assert_array_equal(data["pin_1"], session.level("booted-sleeper"))
+    assert gains.legend.listed == ("this design", *KEYS)
+    assert gains.model.y_range.start <= min(data["pin_8"].min(), data["pin_1"].min())
+    session.definition.summation = "coherent"
+    assert gains.model.yaxis[0].axis_label == "IG, dB (coherent / line)"

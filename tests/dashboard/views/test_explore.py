@@ -246,11 +246,11 @@ def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, s
         pins,
         make_pictures(summaries={pin.key: summary(pin.preset) for pin in pins.shown}),
     )
-    names = [item.label.value for item in view.insertion_gain.model.legend[0].items if item.visible]
+    names = list(view.insertion_gain.legend.listed)
     assert names == list(PRESET_LABELS.values())
     assert not any(marker.visible for marker in view.insertion_gain.model.select({"name": "loaded_track"}))
     assert view.show_current.visible
     view.show_current.param.trigger("clicks")
     assert not pins.alone
-    names = [item.label.value for item in view.insertion_gain.model.legend[0].items if item.visible]
+    names = list(view.insertion_gain.legend.listed)
     assert names[0] == "this design"

@@ -15,7 +15,7 @@ from dashboard.session.results import Outcome
 from dashboard.teaching.lessons import load_lessons
 from dashboard.views.learn import Learn
 from dashboard.views.lessons import Lessons
-from dashboard.views.method import Method, split
+from dashboard.views.method import Method, method_html
 from dashboard.views.motion import Motion
 from dashboard.views.subjects import Damping, Definitions, LumpedVsBeam, Resonances, Slopes
 
@@ -279,17 +279,19 @@ def test_a_lesson_that_the_solver_contradicts_says_so(outcome, definition, input
     assert "finds this claim false" in subject.broken.object
 
 
-def test_the_method_is_shown_with_its_equations():
-    parts = Method().parts
-    equations = [part for part in parts if type(part).__name__ == "LaTeX"]
-    assert len(equations) >= 10
-    for part in parts:
-        if part not in equations:
-            assert "$$" not in part.object
-            assert part.renderer_options == {"html": False}
-    assert "Glossary" in parts[-1].object
+def test_the_method_keeps_every_formula_as_it_was_for_katex_to_find():
+    shown = Method().text.object
+    assert shown.count("$$") >= 20
+    assert "\\frac{\\partial^4 u}{\\partial x^4}" in shown
+    assert "$m_w$" in shown
+    assert "<em>paper</em>" in shown
 
 
-def test_texts_are_split_at_displayed_equations():
-    assert split("one\n\n$$\na\n= b\n$$\n\ntwo") == [("text", "one"), ("equation", "a\n= b"), ("text", "two")]
-    assert split("no equation, 5 $$ only") == [("text", "no equation, 5 $$ only")]
+def test_formulas_survive_markdown_and_markup_does_not():
+    shown = method_html(
+        "a $x_i * y_i$ b\n\n$$\na_1\n= b_2 < c\n$$\n\n<img src=x onerror=alert(1)> | costs 5 $"
+    )
+    assert "$x_i * y_i$" in shown
+    assert "$$a_1 = b_2 &lt; c$$" in shown
+    assert "<img" not in shown
+    assert "<table>" in method_html("| term | meaning |\n|---|---|\n| bay | $L$ |")

@@ -49,7 +49,7 @@ class Everything:
         self.assessment.source = tig.SourceSpectrum([(63, 60.0)])
         self.views = [
             Explore(self.outcome, self.definition, self.pins, self.assessment),
-            compare.Compare(self.inputs, self.pins, self.assessment, None),
+            compare.Compare(self.inputs, self.pins, self.definition, self.assessment, None),
             specification.SpecificationView(self.assessment, FakeExchange()),
             received_level.ReceivedLevel(self.assessment, self.pins, FakeExchange()),
         ]

@@ -3,6 +3,7 @@
 import asyncio
 import re
 
+import numpy as np
 import pytest
 
 import trackig_core as tig
@@ -241,6 +242,22 @@ def test_levels_stand_with_their_difference_from_the_base(session, level):
     assert rows[2][2:] == ["0.0", "0.0"]
 
 
+def test_received_levels_are_drawn_with_the_reference_track(session, level):
+    assert not level.plot.visible
+    session.pin("slab-track", "Slab")
+    session.assessment.source = tig.SourceSpectrum([(31.5, 60.0), (63, 70.5)])
+    assert level.plot.visible
+    data, band = level.figure.curves.data, tig.BAND_LABELS.index("63")
+    slab = tig.solve(tig.PRESETS["slab-track"]).insertion_gain
+    assert data["pin_0"][band] == 70.5 + slab[band]
+    assert data["pin_9"][band] == 70.5
+    assert np.isnan(data["pin_9"][0])
+    assert level.figure.legend.listed == ("this design", "reference track", "Slab")
+    assert level.figure.model.y_range.start <= 60.0
+    session.assessment.source = None
+    assert not level.plot.visible
+
+
 def test_a_source_at_fault_changes_nothing(session, level, exchange):
     type_in(level, "63", "70.5")
     exchange.openers["source"](b"frequency_hz,level_db\n63,999\n")
@@ -304,3 +321,49 @@ def test_a_report_without_a_picture_is_refused_in_words(session, exchange):
     view = SaveAndShare(session.snapshot, exchange)
     asyncio.run(view._save_report())
     assert exchange.saved == []
+
+
+def test_curves_are_named_after_study_and_design_and_leave_out_what_is_not_drawn(session, exchange):
+    session.show("booted-sleeper")
+    session.pin("slab-track", "Slab")
+    session.assessment.title = "Tunnel 7"
+    view = SaveAndShare(session.snapshot, exchange)
+    view.gain.param.trigger("clicks")
+    assert exchange.saved[-1][0] == "trackig-tunnel-7-booted-sleeper-gain.csv"
+    session.pins.alone = True
+    view.force.param.trigger("clicks")
+    name, text, _ = exchange.saved[-1]
+    assert name == "trackig-tunnel-7-slab-force.csv"
+    assert "This design" not in text
+
+
+def test_a_data_sheet_is_that_of_the_chosen_design(session, exchange):
+    session.show("booted-sleeper")
+    view = SaveAndShare(session.snapshot, exchange)
+    pin = session.pin("slab-track", HOSTILE)
+    assert list(view.sheet_design.options) == ["this\N{NO-BREAK SPACE}design", HOSTILE]
+    view.sheet_design.value = pin.key
+    session.assessment.specification = tig.Specification([(63, 0.0)])
+    assert view.sheet_design.value == pin.key
+    asyncio.run(view._save_sheet())
+    name, text, kind = exchange.saved[-1]
+    assert (name, kind) == ("trackig-study-img-src-x-onerror-alert-1-data-sheet.html", "text/html")
+    assert str(session.assessment.results[1].verdict) in text
+    assert "<img" not in text
+
+
+@pytest.mark.parametrize(("form", "start"), [("png", b"\x89PNG"), ("svg", b"<?xml")])
+def test_pictures_are_saved_of_what_is_drawn(session, exchange, form, start):
+    session.show("booted-sleeper")
+    view = SaveAndShare(session.snapshot, exchange)
+    asyncio.run(view._save_picture("gain", form))
+    name, data, _ = exchange.saved[-1]
+    assert name == f"trackig-study-booted-sleeper-gain.{form}"
+    assert data.startswith(start)
+    assert not view.pictures["gain", form].loading
+
+
+def test_a_refused_study_is_told_below_the_buttons_of_studies(session, exchange):
+    view = SaveAndShare(session.snapshot, exchange)
+    (paper,) = [each for each in view.build().objects if view.message in each.objects]
+    assert view.open in paper.objects[1].objects

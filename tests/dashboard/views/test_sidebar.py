@@ -1,13 +1,12 @@
-"""Sliders and boxes, both bound to the inputs."""
-
-import math
+"""The sidebar: what it shows of the inputs, what it takes, and when it answers."""
 
 import pytest
 
 import trackig_core as tig
-from dashboard.fields import NUMBERS, SECOND_STAGE, STIFFNESSES
+from dashboard.fields import CLOSED_GROUPS, FIELDS, NUMBERS, SECOND_STAGE
 from dashboard.session.inputs import DesignInputs
-from dashboard.views.sidebar import Controls, QuantityControl
+from dashboard.session.results import Outcome
+from dashboard.views.sidebar import Controls
 
 
 @pytest.fixture
@@ -16,152 +15,181 @@ def inputs():
 
 
 @pytest.fixture
-def control(inputs):
-    return lambda name: QuantityControl(inputs, name)
+def outcome(summary):
+    return Outcome(summary=summary("booted-block-low-mass"))
 
 
-@pytest.mark.parametrize("name", NUMBERS)
-def test_slider_ends_are_the_bounds(inputs, control, name):
-    quantity = control(name)
-    for position, bound in zip(
-        (quantity.slider.start, quantity.slider.end), inputs.param[name].bounds, strict=True
-    ):
-        quantity.slider.value = position
-        assert getattr(inputs, name) == bound
-        assert float(quantity.box.value) == bound
+@pytest.fixture
+def panel(inputs, outcome, monkeypatch):
+    """Return the panel; its answers are kept in ``answers``."""
+    quantities = Controls(inputs, outcome).quantities
+    answers = []
+    monkeypatch.setattr(quantities, "_send_msg", answers.append)
+    quantities.answers = answers
+    return quantities
 
 
-@pytest.mark.parametrize("name", STIFFNESSES)
-def test_stiffness_sliders_are_logarithmic(inputs, control, name):
-    quantity = control(name)
-    low, high = inputs.param[name].bounds
-    quantity.slider.value = (quantity.slider.start + quantity.slider.end) / 2
-    assert getattr(inputs, name) == pytest.approx(math.sqrt(low * high), rel=0.005)
+def give(panel, number=1, **values):
+    """Send what the browser sends when the user sets values."""
+    panel.handle_message({"kind": "set", "number": number, "values": values, "gesture": 1})
 
 
-def test_logarithmic_sliders_say_the_value_itself(control):
-    quantity = control("pad_stiffness")
-    assert quantity.slider.value == pytest.approx(100)
-    assert "10 * 10 ** (tick / 100)" in quantity.slider.format.code
+def test_every_field_has_a_row_in_its_group(panel):
+    rows = {row["name"]: (group, row) for group in panel.groups for row in group["fields"] if "name" in row}
+    assert set(rows) == {*FIELDS, "preset", "two_stage", "rail"}
+    for name, field in FIELDS.items():
+        group, row = rows[name]
+        assert group["title"] == field.group
+        assert group["closed"] == (field.group in CLOSED_GROUPS)
+        assert (row["low"], row["high"], row["unit"]) == (field.low, field.high, field.unit)
+    assert [value for _, value in rows["preset"][1]["options"]] == list(tig.PRESETS)
+    assert [value for _, value in rows["rail"][1]["options"]] == list(tig.RAILS)
 
 
-def test_a_slider_under_the_thumb_is_not_moved(inputs, control):
-    quantity = control("pad_stiffness")
-    position = 112.345
-    quantity.slider.value = position
-    assert inputs.pad_stiffness == 133
-    assert quantity.slider.value == position
-    assert quantity.box.value == "133"
+def test_what_is_set_becomes_one_change(panel, inputs):
+    changes = []
+    inputs.param.watch(lambda *events: changes.append({event.name for event in events}), list(NUMBERS))
+    give(panel, 7, pad_stiffness=120, block_mass="0.1 t", rail="49E1", two_stage=True)
+    assert changes == [{"pad_stiffness", "block_mass"}]
+    assert (inputs.pad_stiffness, inputs.block_mass, inputs.rail) == (120, 100, "49E1")
+    assert panel.state["number"] == 7
+    assert panel.state["values"]["block_mass"] == 100
+    assert panel.state["modified"]
 
 
-@pytest.mark.parametrize(("typed", "value"), [("123.45", 123.45), (" 60 ", 60), ("1e3", 1000), ("10", 10)])
-def test_a_typed_number_is_taken_as_it_is(inputs, control, typed, value):
-    quantity = control("pad_stiffness")
-    quantity.box.value = typed
-    assert inputs.pad_stiffness == value
-    assert 10 * 10 ** (quantity.slider.value / 100) == pytest.approx(value)
-    assert not quantity.box.error_state
-
-
-NO_NUMBERS = ["abc", "", "880kg", "nan", "<img src=x onerror=alert(1)>"]
-BEYOND_THE_RANGE = ["5,3", "9.9", "2001", "-100", "inf", "1e999"]
+def test_what_cannot_be_read_is_advised_upon_until_it_is_set(panel, inputs):
+    give(panel, 1, block_mass="a lot", pad_stiffness=200)
+    assert (inputs.block_mass, inputs.pad_stiffness) == (45, 200)
+    assert panel.state["refused"] == {"block_mass": "'a lot' is no number; this box takes 10 to 500 kg"}
+    give(panel, 2, pad_stiffness=300)
+    assert set(panel.state["refused"]) == {"block_mass"}
+    give(panel, 3, block_mass=60)
+    assert panel.state["refused"] == {}
 
 
 @pytest.mark.parametrize(
-    ("typed", "advice"),
-    [(typed, "give a number, 10 to 2000") for typed in NO_NUMBERS]
-    + [(typed, "give 10 to 2000") for typed in BEYOND_THE_RANGE],
+    "clear",
+    [
+        lambda inputs, _: inputs.take(inputs.to_values()),
+        lambda inputs, _: setattr(inputs, "two_stage", False),
+        lambda _, panel: give(panel, 2, preset="booted-sleeper"),
+        lambda _, panel: panel.handle_message({"kind": "revert"}),
+    ],
+    ids=["undo", "single-stage", "preset", "revert"],
 )
-def test_nonsense_changes_nothing_and_is_told(inputs, control, typed, advice):
-    quantity = control("pad_stiffness")
-    quantity.box.value = typed
-    assert inputs.pad_stiffness == 100
-    assert quantity.box.error_state
-    assert quantity.box.helper_text == advice
+def test_a_complaint_ends_with_what_it_was_about(panel, inputs, clear):
+    give(panel, 1, block_mass="a lot")
+    clear(inputs, panel)
+    assert panel.state["refused"] == {}
 
 
-def test_a_number_clears_the_complaint(inputs, control):
-    quantity = control("pad_stiffness")
-    quantity.box.value = "abc"
-    quantity.box.value = "250"
-    assert inputs.pad_stiffness == 250
-    assert not quantity.box.error_state
-    assert quantity.box.helper_text == ""
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        [],
+        {"kind": "set"},
+        {"kind": "set", "number": "1", "values": {"block_mass": 60}, "gesture": 1},
+        {"kind": "set", "number": 1, "values": [["block_mass", 60]], "gesture": 1},
+        {"kind": "set", "number": 1, "values": {"block_mass": 60}},
+        {"kind": "chip", "name": "block_mass"},
+        {"kind": "chip", "name": ["block_mass"]},
+    ],
+)
+def test_messages_of_another_form_ask_for_nothing(panel, inputs, message):
+    before = inputs.to_values()
+    panel.handle_message(message)
+    assert inputs.to_values() == before
 
 
-def test_moving_the_slider_clears_the_complaint(control):
-    quantity = control("pad_stiffness")
-    quantity.box.value = "abc"
-    quantity.slider.value = 150
-    assert quantity.box.value == "316"
-    assert not quantity.box.error_state
+@pytest.mark.parametrize(
+    "value", [None, [], {}, True, float("nan"), float("inf"), -1, 1e400, 10**400, "9" * 40]
+)
+def test_hostile_values_change_nothing(panel, inputs, value):
+    before = inputs.to_values()
+    given = dict.fromkeys((*NUMBERS, "rail", "preset", "modified", "no such input"), value)
+    give(panel, 1, **given, two_stage="yes")
+    assert inputs.to_values() == before
+    assert set(panel.state["refused"]) == {*NUMBERS, "rail", "two_stage"}
 
 
-def test_reverting_clears_the_complaint(inputs):
-    controls = Controls(inputs)
-    box = controls.quantities["wheel_mass"].box
-    inputs.pad_stiffness = 200
-    box.value = "abc"
-    controls.revert.param.trigger("clicks")
-    assert (box.value, box.error_state) == ("880", False)
+def test_an_answer_waits_for_the_picture(panel, inputs, outcome, fake_picture):
+    give(panel, 1, block_mass=60)
+    assert panel.answers == []
+    outcome.summary = fake_picture(tig.PRESETS["slab-track"])
+    assert panel.answers == [], "an older picture"
+    outcome.summary = fake_picture(inputs.to_design(), fidelity="live")
+    assert panel.answers == [{"kind": "answered", "number": 1}]
+    outcome.summary = fake_picture(inputs.to_design())
+    assert len(panel.answers) == 1
 
 
-def test_boxes_have_a_name_for_screen_readers(inputs, control):
-    for name in NUMBERS:
-        assert inputs.param[name].label in control(name).box.label
+@pytest.mark.parametrize(
+    "given_up",
+    [{"problem": "Stopped."}, {"progress": 0.1}, {"compiling": True}],
+    ids=lambda each: next(iter(each)),
+)
+def test_an_answer_does_not_wait_for_a_picture_that_is_not_to_come_soon(panel, outcome, given_up):
+    give(panel, 1, block_mass=60)
+    outcome.param.update(**given_up)
+    assert panel.answers == [{"kind": "answered", "number": 1}]
 
 
-def test_a_preset_moves_sliders_boxes_and_switch(inputs):
-    controls = Controls(inputs)
-    controls.preset.value = "booted-sleeper"
-    assert inputs.to_design() == tig.PRESETS["booted-sleeper"]
-    assert controls.quantities["block_mass"].box.value == "210"
-    assert controls.quantities["block_mass"].slider.value == 200
-    assert controls.quantities["boot_stiffness"].slider.value == pytest.approx(100 * math.log10(31.5 / 2))
-    controls.preset.value = "slab-track"
-    assert controls.two_stage.value is False
+@pytest.mark.parametrize("values", [{"block_mass": 45}, {"block_mass": "nonsense"}, {}])
+def test_what_changes_nothing_is_answered_at_once(panel, values):
+    give(panel, 4, **values)
+    assert panel.answers == [{"kind": "answered", "number": 4}]
 
 
-def test_single_stage_disables_block_and_boot_and_nothing_else(inputs):
-    controls = Controls(inputs)
-    controls.two_stage.value = False
-    for name, quantity in controls.quantities.items():
-        assert quantity.slider.disabled == (name in SECOND_STAGE)
-        assert quantity.box.disabled == (name in SECOND_STAGE)
-    controls.two_stage.value = True
-    assert not any(quantity.slider.disabled for quantity in controls.quantities.values())
+def test_only_the_newest_message_is_answered(panel, inputs, outcome, fake_picture):
+    give(panel, 1, block_mass=60)
+    give(panel, 2, block_mass=70)
+    outcome.summary = fake_picture(inputs.to_design())
+    assert panel.answers == [{"kind": "answered", "number": 2}]
 
 
-def test_modified_is_shown_with_a_way_back(inputs):
-    controls = Controls(inputs)
-    assert (controls.state.object, controls.revert.disabled) == ("As in Table 1", True)
-    controls.quantities["block_mass"].slider.value = 50
-    assert (controls.state.object, controls.revert.disabled) == ("Modified", False)
-    controls.revert.param.trigger("clicks")
+def test_a_preset_sets_all_and_what_comes_with_it(panel, inputs):
+    give(panel, 1, preset="booted-sleeper", pad_stiffness=50)
+    assert inputs.to_design() == tig.PRESETS["booted-sleeper"].replace(pad_stiffness=50e6)
+    give(panel, 2, preset="slab-track")
+    assert panel.state["values"]["two_stage"] is False
+
+
+def test_changes_from_elsewhere_reach_the_panel(panel, inputs):
+    inputs.take({"boot_stiffness": 14.0, "rail": "49E1"})
+    assert panel.state["values"]["boot_stiffness"] == 14
+    assert panel.state["values"]["rail"] == "49E1"
+
+
+def test_single_stage_disables_block_and_boot_and_nothing_else(panel, inputs):
+    inputs.two_stage = False
+    assert panel.state["disabled"] == list(SECOND_STAGE)
+    inputs.two_stage = True
+    assert panel.state["disabled"] == []
+
+
+def test_modified_is_shown_with_a_way_back(panel, inputs):
+    assert not panel.state["modified"]
+    give(panel, 1, block_mass=50)
+    assert panel.state["modified"]
+    panel.handle_message({"kind": "revert"})
     assert inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
-    assert (controls.state.object, controls.revert.disabled) == ("As in Table 1", True)
-    assert controls.quantities["block_mass"].slider.value == 35
+    assert not panel.state["modified"]
+    assert panel.state["values"]["block_mass"] == 45
 
 
-def test_sliders_mark_the_preset_s_value(inputs):
-    controls = Controls(inputs)
-    slider = controls.quantities["boot_stiffness"].slider
-    assert slider.marks == [{"value": pytest.approx(100 * math.log10(14))}]
+def test_sliders_mark_the_preset_s_value(panel, inputs):
+    assert panel.state["marks"]["boot_stiffness"] == 28
     inputs.preset = "booted-block-high-mass"
-    assert slider.marks == [{"value": pytest.approx(100 * math.log10(7))}]
+    assert panel.state["marks"]["boot_stiffness"] == 14
     inputs.preset = "slab-track"
-    assert slider.marks is False
+    assert "boot_stiffness" not in panel.state["marks"]
 
 
-def test_the_rail_section_can_be_chosen(inputs):
-    controls = Controls(inputs)
-    assert list(controls.rail.options.values()) == list(tig.RAILS)
-    controls.rail.value = "49E1"
-    assert inputs.to_design().rail == tig.RAILS["49E1"]
-
-
-def test_contact_stiffness_is_advanced_but_there(inputs):
-    controls = Controls(inputs)
-    assert controls.advanced.active == []
-    controls.quantities["contact_stiffness"].box.value = "2000"
-    assert inputs.to_design().contact_stiffness == 2e9
+def test_a_click_on_a_chip_is_handed_on(panel):
+    clicked = []
+    panel.on_chip = clicked.append
+    panel.handle_message({"kind": "chip", "name": "boot_stiffness"})
+    panel.chips = {"boot_stiffness": "measured"}
+    panel.handle_message({"kind": "chip", "name": "boot_stiffness"})
+    assert clicked == ["boot_stiffness"]

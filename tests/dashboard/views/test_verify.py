@@ -1,6 +1,7 @@
 """The checks: computed only while looked at, and every figure in a sentence is that of the picture."""
 
 import asyncio
+import itertools
 import re
 import threading
 
@@ -10,6 +11,13 @@ import pytest
 import trackig_core as tig
 from dashboard.compute import checker as checker_module
 from dashboard.compute.checker import VerificationRunner, check
+from dashboard.figures.verification import (
+    ComparisonFigure,
+    DampingFigure,
+    ElementFigure,
+    ReceptanceFigure,
+    TimeStepFigure,
+)
 from dashboard.session.inputs import GainDefinition
 from dashboard.session.results import Outcome, SolutionSummary, VerifiedSummary
 from dashboard.views.verify import Verify, largest
@@ -166,3 +174,22 @@ def test_damping_is_drawn_against_what_was_stated(outcome, view, summary):
     outcome.verified = check(summary("slab-track"))
     assert np.isnan(view.loss_factor.values.data["boot"]).all()
     np.testing.assert_array_equal(view.loss_factor.values.data["pad_stated"], 0.15)
+
+
+def test_ticks_of_convergence_are_plain_numbers_far_apart():
+    for figure in (TimeStepFigure(), ElementFigure()):
+        ticks = figure.model.xaxis[0].ticker.ticks
+        assert min(later / tick for tick, later in itertools.pairwise(ticks)) >= 2
+        assert figure.model.xaxis[0].major_label_overrides[200] == "200"
+
+
+def test_no_legend_of_a_figure_lies_over_its_curves():
+    figures = (
+        ComparisonFigure(),
+        ReceptanceFigure(),
+        TimeStepFigure(),
+        ElementFigure(),
+        DampingFigure("stiffness", "Stiffness"),
+    )
+    for figure in figures:
+        assert [legend in figure.model.above for legend in figure.model.legend] == [True]

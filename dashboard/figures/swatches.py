@@ -1,0 +1,47 @@
+"""Short pieces of what is drawn, as it is drawn, for legends, lists and tables."""
+
+from dashboard import theme
+
+WIDTH, HEIGHT = 34, 12
+"""Size of a swatch [px]."""
+
+
+def swatch_svg(colour, dash=(), *, dot=False):
+    """Return a short piece of a design's line, as it is drawn in every plot.
+
+    Parameters
+    ----------
+    colour : str
+        Its colour.
+    dash : sequence of int
+        Its dash [px]; empty: solid.
+    dot : bool
+        Whether the line has a dot at each band.
+
+    Returns
+    -------
+    str
+        A drawing (SVG) that screen readers skip.
+    """
+    dashes = " ".join(str(length) for length in dash) or "none"
+    line = f'<path d="M1 6H33" stroke="{colour}" stroke-width="4" stroke-dasharray="{dashes}"/>'
+    return _drawing(line + (f'<circle cx="17" cy="6" r="5.5" fill="{colour}"/>' if dot else ""))
+
+
+def limit_svg():
+    """Return a short piece of a limit, which steps from band to band."""
+    return _drawing(f'<path d="M1 9H17V3H33" fill="none" stroke="{theme.SPECIFICATION}" stroke-width="3"/>')
+
+
+def excess_svg():
+    """Return a piece of the hatching where a design exceeds its limit."""
+    hatching = " ".join(f"M{x} 11L{x + 10} 1" for x in range(2, 24, 7))
+    return _drawing(
+        f'<g fill="none" stroke="{theme.SPECIFICATION}" stroke-width="1.5">'
+        f'<rect x="1" y="1" width="32" height="10"/><path d="{hatching}"/></g>'
+    )
+
+
+def _drawing(parts):
+    size = f'width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}"'
+    return f'<svg class="swatch" {size} aria-hidden="true">{parts}</svg>'

@@ -1,0 +1,88 @@
+"""A data sheet of one design: one page of A4 as an HTML file that needs nothing else and asks for nothing.
+
+It holds what the report says of a design: verdict, insertion gain as plot and table, inputs, natural
+frequencies, definition and version. The template escapes whatever it shows.
+"""
+
+import numpy as np
+
+import trackig_core as tig
+from dashboard import formats, theme
+from dashboard.fields import FIELDS
+from dashboard.report import plots
+from dashboard.report.html_report import FREQUENCIES, TEMPLATES, hertz_text, input_text
+
+PLOT_HEIGHT = 3.1
+"""Height of the plot [inch]."""
+
+
+def data_sheet(result, heading, specification=None, source=None):
+    """Return the data sheet of a design.
+
+    Parameters
+    ----------
+    result : DesignResult
+        The design, solved.
+    heading : Heading
+        What the sheet says of itself.
+    specification : trackig_core.Specification, optional
+        What the design has to meet; its verdict is that of the result.
+    source : trackig_core.SourceSpectrum, optional
+        Where the result's level comes from.
+
+    Returns
+    -------
+    str
+        An HTML file that prints on one page.
+    """
+    natural, level = result.summary.solution.natural_frequencies, result.level
+    reference = None if source is None else source.with_track(np.zeros(tig.BAND_CENTRES.size))
+    return TEMPLATES.get_template("data_sheet.html").render(
+        theme=theme,
+        heading=heading,
+        result=result,
+        specification=specification,
+        plot=plots.gain_svg([result], specification, PLOT_HEIGHT),
+        bands=_bands(result, specification),
+        inputs=_inputs(result.design),
+        frequencies=[
+            (name, hertz_text(take(natural))) for name, take in FREQUENCIES if take(natural) is not None
+        ],
+        source=source,
+        reference=None if reference is None else _level_text(reference),
+        level=None if level is None else _level_text(level),
+        notes=result.summary.solution.notes,
+    )
+
+
+def _bands(result, specification):
+    """Return rows of (name, cells) over the bands, a cell being (text, whether it exceeds the limit)."""
+    verdict = result.verdict
+    fails = np.zeros(tig.BAND_CENTRES.size, bool) if verdict is None else verdict.fails
+    rows = [
+        ("Band, Hz", [(label, False) for label in tig.BAND_LABELS]),
+        ("Gain", _cells(result.levels, fails)),
+    ]
+    if specification is not None:
+        rows += [
+            ("Limit", _cells(specification.levels, np.zeros_like(fails))),
+            ("Margin", _cells(verdict.margins, fails)),
+        ]
+    return rows
+
+
+def _cells(levels, fails):
+    """Return cells for levels [dB], empty where there is none."""
+    texts = [formats.signed_text(level) if np.isfinite(level) else "" for level in levels]
+    return list(zip(texts, map(bool, fails), strict=True))
+
+
+def _inputs(design):
+    """Return rows of (name, unit, text); a single-stage track has no rows for what it lacks."""
+    names = [("rail", "Rail", ""), *((field.name, field.label, field.unit) for field in FIELDS.values())]
+    rows = [(label, unit, input_text(design, name)) for name, label, unit in names]
+    return [row for row in rows if row[2] != "–"]
+
+
+def _level_text(level):
+    return f"{formats.plain_text(level.unweighted)} dB, {formats.plain_text(level.a_weighted)} dB(A)"

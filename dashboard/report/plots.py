@@ -1,0 +1,215 @@
+"""The plots of report, data sheet and pictures, drawn with Matplotlib: dark on white in every theme.
+
+Plots for HTML hold no text of the user's: names stand in the page around them.
+"""
+
+import io
+import re
+import threading
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
+
+import trackig_core as tig
+from dashboard import formats, theme
+
+PLOT_WIDTH = 7.3
+"""Width of a plot [inch]: that of the text on A4."""
+
+TIME_AXIS = (-0.005, 0.25)
+"""What the time axis shows [s]: what follows is too quiet to be seen."""
+
+LEVEL_ROOM = 2.0
+"""Room between curves and the ends of a level axis [dB]."""
+
+FORCE_ROOM = 1.1
+"""The same for forces: factor of the extremes [-]."""
+
+LEAST_DIFFERENCES = 3.0
+"""What the axis of differences reaches at least, up and down [dB]."""
+
+DRAWING = threading.Lock()
+"""Matplotlib is not made for several threads at once."""
+
+
+def gain_svg(results, specification, height=3.5):
+    """Return insertion gain of results over the bands as a drawing (SVG), of a height [inch]."""
+    with DRAWING:
+        figure, axes = _blank(height)
+        draw_gain(axes, results, specification)
+        return _svg(figure, "gain")
+
+
+def difference_svg(results, base):
+    """Return the differences of insertion gain from a base as a drawing (SVG)."""
+    with DRAWING:
+        figure, axes = _blank(2.5)
+        draw_difference(axes, results, base)
+        return _svg(figure, "difference")
+
+
+def force_svg(results):
+    """Return the force over time of all results that were stepped in time as a drawing (SVG), or None."""
+    stepped = stepped_in_time(results)
+    if not stepped:
+        return None
+    with DRAWING:
+        figure, axes = _blank(2.6)
+        draw_force(axes, stepped)
+        return _svg(figure, "force")
+
+
+def stepped_in_time(results):
+    """Return those results that have a force over time."""
+    return [each for each in results if each.summary.time is not None]
+
+
+def _blank(height):
+    """Return a figure of a given height [inch], and its axes."""
+    figure = Figure(figsize=(PLOT_WIDTH, height), layout="constrained", facecolor="none")
+    FigureCanvasSVG(figure)
+    return figure, figure.add_subplot(facecolor="none")
+
+
+def _dress(axes, x, y):
+    """Give axes the look that all have, and names."""
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.spines[["left", "bottom"]].set_color(theme.REPORT_FAINT)
+    axes.tick_params(colors=theme.REPORT_INK, labelsize=8, color=theme.REPORT_FAINT)
+    axes.grid(color=theme.REPORT_RULE, linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.set_xlabel(x, fontsize=9, color=theme.REPORT_INK)
+    axes.set_ylabel(y, fontsize=9, color=theme.REPORT_INK)
+    axes.axhline(0, color=theme.REPORT_FAINT, linewidth=1)
+
+
+def _dress_bands(axes, label):
+    """Put the bands along the axis."""
+    axes.set_xscale("log")
+    axes.set_xlim(tig.BAND_EDGES[0], tig.BAND_EDGES[-1])
+    axes.xaxis.set_major_locator(FixedLocator(tig.BAND_CENTRES))
+    axes.xaxis.set_major_formatter(FixedFormatter(tig.BAND_LABELS))
+    axes.xaxis.set_minor_locator(NullLocator())
+    _dress(axes, "One-third-octave band, Hz", label)
+
+
+def _curve(axes, x, y, result, **kind):
+    dash = {"dashes": result.dash} if result.dash else {}
+    (line,) = axes.plot(x, y, color=result.colour, linewidth=2, **dash, **kind)
+    return line
+
+
+def draw_gain(axes, results, specification):
+    """Draw insertion gain, the limit, and where it is exceeded.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        Where it is drawn.
+    results : sequence of DesignResult
+        Designs with a solution, front to back.
+    specification : trackig_core.Specification or None
+        The limit.
+
+    Returns
+    -------
+    list of matplotlib.lines.Line2D
+        The curve of each result, in their order.
+    """
+    _dress_bands(axes, "Insertion gain, dB")
+    lines = [
+        _curve(axes, tig.BAND_CENTRES, each.levels, each, marker="o", markersize=3.5)
+        for each in reversed(results)
+    ]
+    seen = np.concatenate([each.levels for each in results])
+    if specification is not None:
+        limits = specification.levels
+        seen = np.concatenate([seen, limits[np.isfinite(limits)]])
+        _draw_limits(axes, limits, seen.max() + LEVEL_ROOM)
+        _mark_failing(axes, results)
+    axes.set_ylim(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM)
+    return lines[::-1]
+
+
+def _draw_limits(axes, limits, top):
+    """Draw the limit as steps, edge to edge, what lies above it shaded."""
+    axes.stairs(
+        limits, tig.BAND_EDGES, baseline=top, fill=True, color=theme.SPECIFICATION, alpha=0.07, linewidth=0
+    )
+    axes.stairs(limits, tig.BAND_EDGES, baseline=None, color=theme.SPECIFICATION, linewidth=2.2)
+
+
+def _mark_failing(axes, results):
+    for each in results:
+        fails = each.verdict.fails
+        axes.plot(
+            tig.BAND_CENTRES[fails],
+            each.levels[fails],
+            linestyle="none",
+            marker="X",
+            markersize=9,
+            color=each.colour,
+            markeredgecolor=theme.LIGHT_PAPER,
+            zorder=5,
+        )
+    for band in np.flatnonzero(np.any([each.verdict.fails for each in results], axis=0)):
+        axes.axvspan(
+            *tig.BAND_EDGES[band : band + 2], color=theme.REPORT_BAD, alpha=0.07, linewidth=0, zorder=0
+        )
+
+
+def draw_difference(axes, results, base):
+    """Draw insertion gain less that of a base, as :func:`draw_gain` does; return the curves."""
+    _dress_bands(axes, "Difference, dB")
+    differences = [each.levels - base.levels for each in results]
+    lines = [
+        _curve(axes, tig.BAND_CENTRES, difference, each, marker="o", markersize=3)
+        for each, difference in zip(reversed(results), reversed(differences), strict=True)
+    ]
+    reach = max(LEAST_DIFFERENCES, np.abs(differences).max()) + LEVEL_ROOM / 2
+    axes.set_ylim(-reach, reach)
+    return lines[::-1]
+
+
+def draw_force(axes, results):
+    """Draw the force over time, the first result setting the scale, as :func:`draw_gain` does."""
+    _dress(axes, "Time since the step, ms", "Force into the ground, kN")
+    lines = []
+    for each in reversed(results):
+        summary = each.summary
+        shown = (TIME_AXIS[0] <= summary.time) & (summary.time <= TIME_AXIS[1])
+        lines.append(_curve(axes, 1000 * summary.time[shown], summary.total_force[shown], each))
+    axes.set_xlim(1000 * TIME_AXIS[0], 1000 * TIME_AXIS[1])
+    axes.set_ylim(*_force_ends(results))
+    return lines[::-1]
+
+
+def _force_ends(results):
+    first = results[0].summary.total_force
+    return FORCE_ROOM * first.min(), FORCE_ROOM * first.max()
+
+
+def beyond_texts(results):
+    """Return how far each force reaches beyond the axis, in words (list of str); empty if it does not.
+
+    Parameters
+    ----------
+    results : sequence of DesignResult
+        Designs that were stepped in time, as they are drawn.
+    """
+    ends = _force_ends(results)
+    totals = [each.summary.total_force for each in results]
+    return [formats.beyond_text(total.min(), total.max(), *ends) for total in totals]
+
+
+def _svg(figure, name):
+    """Return a figure as SVG for a page; its identifiers begin with its name, since a page has several."""
+    file = io.StringIO()
+    nothing = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+    figure.savefig(file, format="svg", metadata=nothing)
+    drawing = file.getvalue()
+    drawing = re.sub(r'( id="|href="#|url\(#)', rf"\g<1>{name}-", drawing[drawing.index("<svg") :])
+    return Markup(drawing)

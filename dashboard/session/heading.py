@@ -1,0 +1,85 @@
+"""What every file that leaves the page says of itself: study, design, definition, solution, date, version."""
+
+import datetime
+from dataclasses import dataclass
+
+import trackig_core as tig
+from dashboard import formats
+from dashboard.fields import PRESET_LABELS
+from dashboard.session.pins import THIS_DESIGN
+
+
+@dataclass(frozen=True)
+class Heading:
+    """What a file says of itself.
+
+    Attributes
+    ----------
+    study : str
+        What the study is called.
+    design : str
+        What the design is called that the file is about, the first if there are several.
+    definition : str
+        Which insertion gain is meant.
+    fidelity : str
+        How the solutions were obtained.
+    date : datetime.date
+        The day.
+    version : str
+        Version of the software.
+    """
+
+    study: str
+    design: str
+    definition: str
+    fidelity: str
+    date: datetime.date
+    version: str
+
+    @classmethod
+    def of(cls, study, results, date):
+        """Return what a file says that shows results of a study.
+
+        Parameters
+        ----------
+        study : trackig_core.Study
+            The study.
+        results : sequence of DesignResult
+            Designs with a solution, one or more.
+        date : datetime.date
+            The day.
+        """
+        first = results[0]
+        return cls(
+            study=study.name,
+            design=current_name(study) if first.key is None else first.name,
+            definition=formats.definition_text(study.view.summation, study.view.reference),
+            fidelity=formats.fidelities_text(each.summary.solution.fidelity for each in results),
+            date=date,
+            version=tig.__version__,
+        )
+
+    @property
+    def day(self):
+        """The date in words."""
+        return f"{self.date.day} {self.date:%B %Y}"
+
+    @property
+    def lines(self):
+        """All of it, a line of text each."""
+        return (
+            f"study: {self.study}",
+            f"design: {self.design}",
+            f"insertion gain: {self.definition}",
+            f"solution: {self.fidelity}",
+            f"date: {self.date.isoformat()}",
+            f"trackig {self.version}",
+        )
+
+
+def current_name(study):
+    """Return what a study's current design is called outside the page: after the preset it comes from."""
+    if study.preset is None:
+        return THIS_DESIGN
+    label = PRESET_LABELS[study.preset]
+    return label if study.design == tig.PRESETS[study.preset] else f"{label}, modified"

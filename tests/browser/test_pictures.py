@@ -1,0 +1,98 @@
+"""What a small window leaves to the pictures: legends, tabs and words make way for the data."""
+
+import pytest
+from playwright.sync_api import expect
+
+import trackig_core as tig
+from dashboard.theme import MOST_PINNED
+from tests.browser.conftest import wait_until_at_rest
+from tests.browser.test_workshop import open_file, open_tab
+from trackig_core.names import LONGEST_NAME
+
+pytestmark = pytest.mark.browser
+
+LONG = f"{'Extraordinarily long name of a design':<{LONGEST_NAME - 1}}"
+
+STUDY = tig.Study(
+    tig.PRESETS["booted-block-low-mass"],
+    [
+        tig.PinnedDesign(f"{LONG}{place}", design, place)
+        for place, design in enumerate((*tig.PRESETS.values(), *tig.PRESETS.values()))
+    ],
+    tig.Specification([(31.5, 3.0), (63, 0.0), (125, -12.0)]),
+)
+
+BOXES = """name => {
+    const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
+    const legend = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(`${name}_legend`))
+    const figure = view.el.getBoundingClientRect(), words = legend.el.getBoundingClientRect()
+    return [view.frame.bbox.height / figure.height, figure.bottom, words.top, words.right]
+}"""
+
+
+@pytest.fixture(scope="module")
+def small(reader):
+    """Return a small page with as many designs as can be pinned, under the longest names."""
+    page = reader.open(width=1024, height=768)
+    open_tab(page, "Save & share")
+    open_file(page, "Open study", "study.toml", STUDY.to_toml().encode())
+    expect(page.get_by_text("The study is open.")).to_be_visible()
+    yield page
+    page.close()
+    reader.check()
+
+
+@pytest.mark.parametrize(
+    ("tab", "figure"),
+    [("Explore", "insertion_gain_figure"), ("Explore", "force_figure"), ("Compare", "compared_gain_figure")],
+)
+def test_eight_long_names_leave_two_thirds_of_a_figure_to_the_data(small, tab, figure):
+    open_tab(small, tab)
+    small.wait_for_function(
+        """([figure, count]) => {
+            const legend = Bokeh.documents[0].get_model_by_name(`${figure}_legend`)
+            const view = legend && Bokeh.index.find_one(legend)
+            return view && view.shadow_el.querySelectorAll("li").length > count
+        }""",
+        arg=[figure, MOST_PINNED],
+    )
+    wait_until_at_rest(small)
+    part, bottom, top, right = small.evaluate(BOXES, figure)
+    assert part >= 2 / 3
+    assert bottom <= top + 1
+    assert right <= 1024
+
+
+def test_all_tabs_are_in_sight_and_none_scrolls_sideways(small):
+    for tab in small.get_by_role("tab").all():
+        box = tab.bounding_box()
+        assert 0 <= box["x"] <= box["x"] + box["width"] <= 1024
+    open_tab(small, "Save & share")
+    wait_until_at_rest(small)
+    wide = """() => {
+        const wide = []
+        const walk = root => root.querySelectorAll("*").forEach(each => {
+            if (each.shadowRoot) walk(each.shadowRoot)
+            if (each.getBoundingClientRect().right > innerWidth + 1) wide.push(each.outerHTML.slice(0, 80))
+        })
+        walk(document)
+        return wide
+    }"""
+    assert small.evaluate(wide) == []
+
+
+def test_formulas_are_set_and_none_has_a_scroll_bar(small):
+    open_tab(small, "Method")
+    formulas = """() => {
+        const found = []
+        const walk = root => root.querySelectorAll("*").forEach(each => {
+            if (each.shadowRoot) walk(each.shadowRoot)
+            if (each.classList.contains("katex-display"))
+                found.push([each.scrollWidth - each.clientWidth, each.scrollHeight - each.clientHeight])
+        })
+        walk(document)
+        return found
+    }"""
+    small.wait_for_function(f"() => ({formulas})().length > 10")
+    wait_until_at_rest(small)
+    assert all(across <= 0 and down <= 2 for across, down in small.evaluate(formulas))

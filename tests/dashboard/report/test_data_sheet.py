@@ -1,0 +1,60 @@
+"""The data sheet: all of one design, as text, on what prints as one page (which a browser's test counts)."""
+
+import datetime
+import html
+
+import pytest
+
+import trackig_core as tig
+from dashboard import formats
+from dashboard.report.data_sheet import data_sheet
+from dashboard.session.heading import Heading
+
+DAY = datetime.date(2026, 3, 5)
+HOSTILE = "<script>alert(1)</script>"
+LIMIT = tig.Specification([(63, 0.0), (80, -30.0)], name=f"Limit {HOSTILE}")
+SOURCE = tig.SourceSpectrum([(63, 60.0)], name="Source & so on")
+
+
+@pytest.fixture
+def sheet(session):
+    session.show("booted-block-low-mass")
+    session.assessment.param.update(specification=LIMIT, source=SOURCE, title=HOSTILE)
+    result = session.assessment.current
+    return result, data_sheet(result, Heading.of(session.snapshot.study(), [result], DAY), LIMIT, SOURCE)
+
+
+def test_everything_of_the_design_is_on_it(sheet):
+    result, text = sheet
+    natural = result.summary.solution.natural_frequencies
+    for words in (
+        "<h1>Booted block, low mass</h1>",
+        html.escape(LIMIT.name),
+        str(result.verdict),
+        "5 March 2026",
+        f"trackig {tig.__version__}",
+        formats.definition_text("energy", "line").capitalize().replace("'", "&#39;"),
+        formats.frequency_text(natural.loaded_track).removesuffix(" Hz"),
+        formats.frequency_text(natural.coupled_block).removesuffix(" Hz"),
+        "Source &amp; so on, this track",
+        f"{result.level.unweighted:.1f} dB, {result.level.a_weighted:.1f} dB(A)",
+        "<td>28</td>",
+        "<svg",
+    ):
+        assert words in text, words
+    assert HOSTILE not in text
+    for level in result.levels:
+        assert f">{formats.signed_text(level)}</td>" in text
+
+
+def test_bands_that_fail_are_marked(sheet):
+    result, text = sheet
+    assert text.count('<td class="fails">') == 2 * int(result.verdict.fails.sum()) > 0
+
+
+def test_what_a_single_stage_track_lacks_is_left_out(session):
+    session.show("slab-track")
+    result = session.assessment.current
+    text = data_sheet(result, Heading.of(session.snapshot.study(), [result], DAY))
+    for absent in ("Boot stiffness", "Coupled block", "Level with the track", "Limit", "–"):
+        assert absent not in text
