@@ -44,6 +44,7 @@ class MeasuredGain(BandTable):
         low=-150.0,
         high=150.0,
         error=MeasuredGainError,
+        hints=r"insertion|einf|\big\b|gain|measured|gemess|level|pegel",
     )
 
     def difference(self, levels: ArrayLike) -> RealArray:
