@@ -76,7 +76,8 @@ def resolved_spectrum(
 def _is_compiled(lattice: Lattice) -> bool:
     """Return whether a lattice is refined by compiled code: all that are not for study only."""
     ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
-    return lattice.elements_per_bay == batch_kernels.ELEMENTS_PER_BAY and not ring_in_continuous_time
+    euler = lattice.rail == "euler" and lattice.elements_per_bay == batch_kernels.ELEMENTS_PER_BAY
+    return euler and not ring_in_continuous_time
 
 
 def _stepping(model: TrackModel, lattice: Lattice) -> tuple[RealArray, float, int]:
