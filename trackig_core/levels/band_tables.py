@@ -395,7 +395,7 @@ def _of_quantity(column: Column, quantity: Quantity) -> Column:
     return column
 
 
-_COLUMNS = ("ig_max_db", "level_db")
+_COLUMNS = ("ig_max_db", "level_db", "ig_db")
 """Headers of levels in the files that are written."""
 
 
