@@ -59,7 +59,7 @@ def resolved_spectrum(
 
 
 def _is_compiled(lattice: Lattice) -> bool:
-    """Return whether a lattice is refined by compiled code: those whose rail only bends, but for those for study."""
+    """Return whether a lattice is refined by compiled code: those of bending rails, but for study only."""
     if lattice.rail != "euler" or lattice.elements_per_bay != batch_kernels.ELEMENTS_PER_BAY:
         return False
     ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
