@@ -5,6 +5,8 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 
 import gc
 
+from bokeh.core.validation import silence
+from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from tornado.ioloop import IOLoop
 
 import trackig_core as tig
@@ -22,6 +24,8 @@ first_page.install()
 def on_server_loaded(server_context):
     """Have kernels compiled and the presets solved while pages are served, the opening one first."""
     leave_out_departures()
+    # tabs and sidebar are places that are filled step by step
+    silence(EMPTY_LAYOUT)
     compiled()
     opening, *_ = [
         shared_store().request((tig.PRESETS[key], AT_REST))

@@ -37,6 +37,7 @@ def test_a_page_moves_below_a_prefix(served):
     assert there["status"] == "ok"
     assert there["version"] == tig.__version__
     assert there["sessions"] >= 1
+    assert "EMPTY_LAYOUT" not in served.log.read_text()
 
 
 def test_many_requests_of_the_page_make_no_session(served):
