@@ -58,6 +58,8 @@ class Visitor:
             request_timeout=120,
         )
         self.socket = await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**26)
+        # as browsers do; else the second frame of a message waits until the first is acknowledged
+        self.socket.protocol.stream.set_nodelay(True)
         await self.receive("ACK")
         if pull:
             await self.pull()

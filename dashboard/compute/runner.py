@@ -142,6 +142,7 @@ class Runner(param.Parameterized):
 
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
+        began = time.monotonic()
         live = asyncio.ensure_future(self._obtain((design, MOVING), document))
         try:
             # what live fidelity refuses or gives up, the paper's run answers or explains
@@ -151,7 +152,7 @@ class Runner(param.Parameterized):
                 self._publish(document, **self._success(design, summary, from_cache=False))
         finally:
             _abandon(live)
-        if await self._news_within(REST):
+        if await self._news_within(max(REST, 2 * (time.monotonic() - began))):
             raise _SupersededError
 
     async def _bridge(self, live, design, document):
