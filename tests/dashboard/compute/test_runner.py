@@ -502,4 +502,5 @@ def test_waiting_for_a_worker_does_not_count_as_long(make_store, fake_picture, m
         await until(lambda: (300, AT_REST) in shown)
 
     asyncio.run(wait())
-    assert shown == [(300, MOVING), (300, AT_REST)]
+    # the exact curve comes first where the live run is not there by then
+    assert [each for each in shown if each != (300, AT_ONCE)] == [(300, MOVING), (300, AT_REST)]
