@@ -58,8 +58,8 @@ def make_store():
     """Return a function that makes stores, closed after the test."""
     stores = []
 
-    def make(solve, capacity=8, workers=2):
-        stores.append(SolutionStore(solve, FairExecutor(workers), capacity))
+    def make(solve, capacity=8, workers=2, spare=0):
+        stores.append(SolutionStore(solve, FairExecutor(workers, spare=spare), capacity))
         return stores[-1]
 
     yield make
