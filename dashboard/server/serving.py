@@ -4,6 +4,7 @@ The login is Panel's: a name, which is not checked, and one password for all. It
 TLS, which a proxy in front can give, whoever listens on the network reads the password.
 """
 
+import asyncio
 import contextlib
 import json
 import logging
@@ -23,17 +24,19 @@ from bokeh.server.util import check_allowlist
 from panel.auth import BasicAuthProvider
 from panel.config import config
 from panel.io.application import build_single_handler_application
+from panel.io.document import dispatch_tornado
 from panel.io.resources import DIST_DIR
 from panel.io.server import INDEX_HTML, WSHandler, get_static_routes
 from panel.io.state import state
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.iostream import IOStream
+from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
 from dashboard.server import sessions
 from dashboard.server.acceptor import HEALTH, Acceptor
 from dashboard.server.command import PAGE
+from dashboard.server.gathering import GatheringStream
 
 DASHBOARD = Path(__file__).parent.parent
 LOGIN = Path(__file__).parent / "templates" / "login.html"
@@ -76,6 +79,12 @@ class SocketHandler(WSHandler):
         _say(f"a page of {shown or 'no host'} was refused; if it is yours, add --allow-origin {shown}")
         return False
 
+    def open(self):
+        """Have the frames of each message sent in one go, and at once."""
+        self.ws_connection.stream.gathers = True
+        self.set_nodelay(True)
+        return super().open()
+
     async def _handle(self, message):
         if message.msgtype not in EXPECTED:
             self._protocol_error(f"{message.msgtype[:40]} is nothing that a page sends")
@@ -83,11 +92,16 @@ class SocketHandler(WSHandler):
         return await super()._handle(message)
 
     async def send_message(self, message):
-        """Send a message; one that says that something failed counts."""
+        """Send a message whole, as Panel sends pictures; one that says that something failed counts.
+
+        Bokeh waits after each of its frames; those of a picture could get between them.
+        """
         if message.msgtype == "ERROR":
             message.content["traceback"] = None
             self._faults += 1
-        await super().send_message(message)
+        # whoever has left needs no answer
+        with contextlib.suppress(WebSocketClosedError):
+            await asyncio.gather(*dispatch_tornado(self.connection, msg=message))
         if self._faults > MOST_FAULTS:
             self._protocol_error("too many messages that cannot be followed")
 
@@ -173,7 +187,7 @@ def run(site, listeners, shares, number, secret, announce):
 
     def take_up():
         connection, address = waiting.popleft()
-        http.handle_stream(IOStream(connection, max_buffer_size=sessions.MOST_MESSAGE_BYTES), address)
+        http.handle_stream(GatheringStream(connection, max_buffer_size=sessions.MOST_MESSAGE_BYTES), address)
 
     acceptor = Acceptor(listeners, site.prefix + HEALTH, health, hand_on, is_our_turn)
     PeriodicCallback(beat, 1000 * BEAT).start()

@@ -54,7 +54,7 @@ async def drag_politely(visitor, waits):
     while time.monotonic() < end:
         await visitor.move(round(chance.uniform(10, 40), 2))
         waits.append(await visitor.picture(PATIENCE))
-        await asyncio.sleep(0.1)
+        await visitor.answer(PATIENCE)
 
 
 async def drag_whatever_comes(visitor, waits):
