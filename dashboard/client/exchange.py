@@ -35,6 +35,7 @@ REST = 0.3
 """Seconds without a change after which the address bar follows."""
 
 COPIED = "The link is copied: it holds the design, the pinned designs and the view."
+NEEDS_FILE = "The link is copied, but needs the study file: it cannot hold {}. Send the study with it."
 NOT_COPIED = "The browser does not let the page copy. Copy the address from the address bar: it is the link."
 HANDLING_FAILED = "Something went wrong; the server's log has the details."
 NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
@@ -142,9 +143,18 @@ class Exchange(Scripted):
             case {"kind": "restore", "data": str(data)}:
                 self._restore(data)
             case {"kind": "copied", "data": bool(copied)}:
-                notify("success", COPIED) if copied else notify("warning", NOT_COPIED)
+                self._tell_of_link(copied)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
                 self._openers[purpose](data)
+
+    def _tell_of_link(self, copied):
+        left_out = self._snapshot.left_out
+        if not copied:
+            notify("warning", NOT_COPIED)
+        elif left_out:
+            notify("warning", NEEDS_FILE.format(left_out))
+        else:
+            notify("success", COPIED)
 
     def _restore(self, data):
         try:

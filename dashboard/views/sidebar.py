@@ -7,13 +7,18 @@ nothing else.
 
 from panel.viewable import Viewer
 
+import trackig_core as tig
 from dashboard.client.quantities import Quantities
-from dashboard.fields import CLOSED_GROUPS, FIELDS, INPUTS, NUMBERS, SECOND_STAGE
+from dashboard.fields import CLOSED_GROUPS, FIELDS, INPUTS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
 from dashboard.session.inputs import display_values
+from dashboard.session.special import OWN_RAIL, curve_text, is_curve
 
 FIRST_ROWS = {"Block and boot": ("two_stage",)}
 LAST_ROWS = {"Track": ("rail",)}
 """Inputs that are no numbers, by the group that they begin or end."""
+
+OTHERS = {"rail": [["of its own mass and EI …", OWN_RAIL]]}
+"""What may be chosen besides an input's own options, words first."""
 
 
 class Controls(Viewer):
@@ -54,12 +59,14 @@ class Controls(Viewer):
         marks = display_values(inputs.preset_design)
         self.quantities.state = {
             "number": self._number,
-            "values": {name: getattr(inputs, name) for name in INPUTS},
+            "values": inputs.to_shown(),
             "refused": inputs.refused,
             "disabled": [] if inputs.two_stage else list(SECOND_STAGE),
+            "hidden": [] if "rail" in inputs.special else list(RAIL_FIELDS),
             "marks": {name: marks[name] for name in NUMBERS if name in marks},
             "modified": inputs.modified,
         }
+        self.quantities.chips = chips(inputs)
 
     def _answer(self, *_):
         if self._due and not self._taking and self._is_settled():
@@ -97,8 +104,30 @@ def groups(inputs):
         rows = [_other(inputs, name) for name in FIRST_ROWS.get(title, ())]
         rows += [_number(field) for field in FIELDS.values() if field.group == title]
         rows += [_other(inputs, name) for name in LAST_ROWS.get(title, ())]
+        rows += [_number(field) for field in RAIL_FIELDS.values() if field.group == title]
         found.append({"title": title, "closed": title in CLOSED_GROUPS, "fields": rows})
     return found
+
+
+def chips(inputs):
+    """Return what stands in the place of sliders, in words by name: curves as measured.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        The current design.
+
+    Returns
+    -------
+    dict of str to str
+        Words of each chip.
+    """
+    curves = {name: each for name, each in inputs.special.items() if is_curve(each)}
+    found = {name: curve_text(curve) for name, curve in curves.items()}
+    for name, curve in curves.items():
+        if isinstance(curve, tig.StiffnessCurve):
+            found[name.replace("stiffness", "loss_factor")] = "measured with the stiffness"
+    return {name: words for name, words in found.items() if inputs.two_stage or name not in SECOND_STAGE}
 
 
 def _number(field):
@@ -115,7 +144,7 @@ def _other(inputs, name):
 def _choice(inputs, name, replaces=False):
     """Return a choice; one that replaces sets all other inputs too."""
     parameter = inputs.param[name]
-    options = [list(each) for each in parameter.names.items()]
+    options = [list(each) for each in parameter.names.items()] + OTHERS.get(name, [])
     return {
         "kind": "choice",
         "name": name,

@@ -265,13 +265,14 @@ class Quantity {
   }
 
   // Show what the server knows; what somebody is typing, and a thumb that stands where it gives this value, stay.
-  show({values, refused, disabled, marks}) {
+  show({values, refused, disabled, hidden, marks}) {
     const value = values[this.field.name]
     const advice = refused[this.field.name] ?? ""
     const typing = this.box.matches(":focus") && this.box.value !== this.committed
     if (value !== undefined && value !== this.value) this.place(value)
     if (value !== undefined && advice === "" && !typing) this.take(value)
     this.refuse(advice)
+    this.root.hidden = hidden.includes(this.field.name)
     this.root.classList.toggle("disabled", disabled.includes(this.field.name))
     this.slider.disabled = this.box.disabled = disabled.includes(this.field.name)
     this.preset = marks[this.field.name]

@@ -3,9 +3,10 @@
 import pytest
 
 import trackig_core as tig
-from dashboard.fields import CLOSED_GROUPS, FIELDS, NUMBERS, SECOND_STAGE
+from dashboard.fields import CLOSED_GROUPS, FIELDS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
+from dashboard.session.special import OWN_RAIL
 from dashboard.views.sidebar import Controls
 
 
@@ -36,14 +37,14 @@ def give(panel, number=1, **values):
 
 def test_every_field_has_a_row_in_its_group(panel):
     rows = {row["name"]: (group, row) for group in panel.groups for row in group["fields"] if "name" in row}
-    assert set(rows) == {*FIELDS, "preset", "two_stage", "rail"}
+    assert set(rows) == {*FIELDS, *RAIL_FIELDS, "preset", "two_stage", "rail"}
     for name, field in FIELDS.items():
         group, row = rows[name]
         assert group["title"] == field.group
         assert group["closed"] == (field.group in CLOSED_GROUPS)
         assert (row["low"], row["high"], row["unit"]) == (field.low, field.high, field.unit)
     assert [value for _, value in rows["preset"][1]["options"]] == list(tig.PRESETS)
-    assert [value for _, value in rows["rail"][1]["options"]] == list(tig.RAILS)
+    assert [value for _, value in rows["rail"][1]["options"]] == [*tig.RAILS, OWN_RAIL]
 
 
 def test_what_is_set_becomes_one_change(panel, inputs):
