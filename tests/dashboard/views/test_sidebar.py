@@ -4,7 +4,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.fields import CLOSED_GROUPS, FIELDS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
-from dashboard.session.inputs import DesignInputs
+from dashboard.session.inputs import DesignInputs, values_of
 from dashboard.session.results import Outcome
 from dashboard.session.special import OWN_RAIL
 from dashboard.views.sidebar import Controls
@@ -194,3 +194,32 @@ def test_a_click_on_a_chip_is_handed_on(panel):
     panel.chips = {"boot_stiffness": "measured"}
     panel.handle_message({"kind": "chip", "name": "boot_stiffness"})
     assert clicked == ["boot_stiffness"]
+
+
+CURVE = tig.StiffnessCurve([(5, 20e6, 0.1), (30, 30e6, 0.2)])
+
+
+def test_a_curve_stands_as_a_chip_in_the_place_of_its_sliders(panel, inputs):
+    assert panel.chips == {}
+    inputs.take(values_of(inputs.to_design().replace(boot_stiffness=CURVE, boot_loss_factor=None)))
+    assert panel.chips == {
+        "boot_stiffness": "measured at 2 frequencies, 5 to 30 Hz",
+        "boot_loss_factor": "measured with the stiffness",
+    }
+    give(panel, two_stage=False)
+    assert panel.chips == {}
+
+
+def test_a_number_beyond_a_slider_is_shown_as_it_is(panel, inputs):
+    inputs.take(values_of(inputs.to_design().replace(boot_stiffness=300e6)))
+    assert panel.state["values"]["boot_stiffness"] == 300
+    assert panel.chips == {}
+
+
+def test_a_rail_of_one_s_own_shows_its_sliders(panel, inputs):
+    assert panel.state["hidden"] == [*RAIL_FIELDS]
+    give(panel, rail=OWN_RAIL)
+    assert (panel.state["hidden"], panel.state["values"]["rail"]) == ([], OWN_RAIL)
+    give(panel, number=2, mass_per_metre=58)
+    assert inputs.to_design().rail.mass_per_metre == 58
+    assert panel.state["values"]["mass_per_metre"] == 58
