@@ -26,6 +26,7 @@ from dashboard.compute.workers import shared_live_store, shared_store
 from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
+from dashboard.session.measuring import Measuring
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.compare import Compare
@@ -88,6 +89,11 @@ def build(store=None, live_store=None):
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
     browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
+    measuring = Measuring()
+
+    def edit_curve(name):
+        measuring.param.update(part=name.split("_")[0], reading=None, answered=False)
+        snapshot.tab = Track.link_name
 
     def show_insertion_gain():
         snapshot.tab = Explore.link_name
@@ -98,7 +104,7 @@ def build(store=None, live_store=None):
         SpecificationView: partial(SpecificationView, assessment, exchange),
         Decide: partial(Decide, inputs, definition, pins, assessment),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
-        Track: partial(Track, inputs, outcome),
+        Track: partial(Track, inputs, outcome, measuring, exchange),
         Learn: partial(Learn, inputs, outcome, definition),
         Verify: partial(Verify, outcome, definition, checker.look),
         Method: Method,
@@ -111,7 +117,7 @@ def build(store=None, live_store=None):
     in_turns(put(exchange, bar_place, bar), report_error)
     last = chain(put(exchange, status_place, status), notify_of_problems(problems))
     shown = tabs(snapshot, makers, exchange, last)
-    return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
+    return page([bar_place, Controls(inputs, outcome, edit_curve)], status_place, shown, browser, exchange)
 
 
 def put(exchange, place, make):

@@ -24,6 +24,9 @@ PRESET_GHOST = "#808080"
 THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
+EXTRAPOLATED = "#808080"
+"""Hatching of bands that rest on more than was measured."""
+
 SPECIFICATION = "#c2410c"
 """The limit of a specification, and where it is exceeded."""
 

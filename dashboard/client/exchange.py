@@ -25,10 +25,19 @@ MOST = {
     "study": studies.MOST_BYTES,
     "specification": band_tables.MOST_BYTES,
     "source": band_tables.MOST_BYTES,
+    "stiffness": band_tables.MOST_BYTES,
+    "catalogue": studies.MOST_BYTES,
 }
 """Size that a file may have [bytes], by what it is opened for."""
 
-ACCEPTED = {"study": ".toml", "specification": ".csv,.txt,.tsv", "source": ".csv,.txt,.tsv"}
+TABLES = ".csv,.txt,.tsv"
+ACCEPTED = {
+    "study": ".toml",
+    "specification": TABLES,
+    "source": TABLES,
+    "stiffness": TABLES,
+    "catalogue": ".toml",
+}
 """What the browser's dialog offers, by what a file is opened for."""
 
 REST = 0.3

@@ -32,9 +32,17 @@ class Quantities(Scripted):
 
     groups = param.List(default=[], doc="Title, fields, and whether closed, of each group; see the script.")
     state = param.Dict(
-        default={"number": 0, "values": {}, "refused": {}, "disabled": [], "hidden": [], "marks": {}, "modified": False},
-        doc="What is set, by name: values, advice where a text was refused, what is disabled or hidden, ticks "
-        "on sliders; and the number of the last message that it reflects.",
+        default={
+            "number": 0,
+            "values": {},
+            "refused": {},
+            "disabled": [],
+            "hidden": [],
+            "marks": {},
+            "modified": False,
+        },
+        doc="What is set, by name: values, advice where a text was refused, what is disabled or hidden, "
+        "ticks on sliders; and the number of the last message that it reflects.",
     )
     feasible = param.Dict(
         default={},

@@ -74,11 +74,11 @@ def display_values(design):
     dict
         Values for :class:`DesignInputs` [display units].
     """
-    rails = [key for key, rail in tig.RAILS.items() if rail == design.rail]
+    known = {rail: {"rail": key} for key, rail in tig.RAILS.items()}
     numbers = {name: getattr(design, name) for name in NUMBERS}
     return {
         "two_stage": design.two_stage,
-        **{"rail": key for key in rails},
+        **known.get(design.rail, {}),
         **{name: on_slider(name, value) for name, value in numbers.items() if isinstance(value, float)},
         "special": special_values(design),
     }
@@ -199,7 +199,8 @@ class DesignInputs(param.Parameterized):
     wheel_mass = _number("wheel_mass")
     contact_stiffness = _number("contact_stiffness")
     special = param.Dict(
-        default={}, doc="What stands in the place of a slider or choice, by field [SI units]; never changed in place."
+        default={},
+        doc="What stands in the place of a slider or choice, by field [SI units]; never changed in place.",
     )
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
     refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")

@@ -30,15 +30,18 @@ class Controls(Viewer):
         What they change.
     outcome : Outcome
         Says when the picture of a change has been drawn.
+    on_curve : callable, optional
+        Called with the name of an input whose curve is to be looked at.
     """
 
-    def __init__(self, inputs, outcome):
+    def __init__(self, inputs, outcome, on_curve=None):
         super().__init__()
         self._inputs, self._outcome = inputs, outcome
         self._number, self._due, self._taking = 0, False, False
         self.quantities = Quantities(groups=groups(inputs), sizing_mode="stretch_width", margin=0)
         self.quantities.on_set = self._take
         self.quantities.on_revert = inputs.revert
+        self.quantities.on_chip = on_curve
         inputs.param.watch(self._show, [*INPUTS, "modified", "refused"])
         outcome.param.watch(self._answer, ["summary", "busy", "progress", "problem", "compiling"])
         self._show()

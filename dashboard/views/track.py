@@ -11,6 +11,7 @@ from dashboard.fields import PHYSICAL
 from dashboard.figures.track_drawing import track_svg
 from dashboard.views.components import PAPER, caption
 from dashboard.views.frequencies import Frequencies
+from dashboard.views.measured import Measured
 from dashboard.views.tab import Tab
 
 
@@ -23,18 +24,23 @@ class Track(Tab):
         What is drawn.
     outcome : Outcome
         Whose natural frequencies are shown.
+    measuring : Measuring
+        Which part's measured curve is shown.
+    exchange : Exchange
+        Opens tables.
     """
 
     title = "Track"
     link_name = "track"
 
-    def __init__(self, inputs, outcome):
+    def __init__(self, inputs, outcome, measuring, exchange):
         super().__init__()
         self._inputs = inputs
         self.drawing = pn.pane.HTML(
             "", sizing_mode="stretch_width", stylesheets=[theme.DRAWING_CSS], margin=(0, 12, 8, 12)
         )
         self.frequencies = Frequencies(outcome)
+        self.measured = Measured(inputs, measuring, exchange)
         inputs.param.watch(self._draw, list(PHYSICAL))
 
     def refresh(self):
@@ -46,8 +52,23 @@ class Track(Tab):
         if self.in_sight:
             self.drawing.object = track_svg(self._inputs.to_design())
 
+    def fill(self, place):
+        """Put the drawing into its place, then what was measured."""
+        place.objects = [self._drawn()]
+        yield
+        measured = self.measured.__panel__()
+        measured.margin = (0, 8, 8, 8)
+        place.append(measured)
+        yield
+
     def build(self):
-        """Return what is put on the page."""
+        """Return what is put on the page, whole."""
+        place = pn.Column(sizing_mode="stretch_width", margin=0)
+        for _ in self.fill(place):
+            pass
+        return place
+
+    def _drawn(self):
         drawing = pmui.Paper(caption("The track as the sliders stand", WORDS), self.drawing, **PAPER)
         frequencies = pmui.Paper(caption("Natural frequencies", ""), self.frequencies, **PAPER)
         return pmui.Grid(

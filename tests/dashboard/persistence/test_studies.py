@@ -1,4 +1,4 @@
-"""Studies in the dashboard: what was saved opens as it was, and what sliders cannot show is kept beside them."""
+"""Studies in the dashboard: what was saved opens as it was, whether sliders can show it or not."""
 
 import dataclasses
 
