@@ -3,6 +3,8 @@
 // What is kept is never overwritten before it was offered to a server that does not know it.
 
 const MEMORY = "trackig"
+const CATALOGUE = "trackig-catalogue"
+const LONGEST_CATALOGUE = 262144 // characters that are sent back
 const LOOK_EVERY = 500 // ms between looks whether the server is back
 const RECOLOURED = 100 // ms after which recolouring has begun
 const GAP = 40 // ms between looks whether the page is at work
@@ -37,6 +39,25 @@ function resume(model) {
     model.send_msg({kind: "restore", data: memory.study})
   } else {
     keep(model)
+  }
+}
+
+// The catalogue of a company stays with the browser, whatever page it opens next.
+function remember(text) {
+  try {
+    if (text === "") localStorage.removeItem(CATALOGUE)
+    else localStorage.setItem(CATALOGUE, text)
+  } catch {
+    // a browser that refuses to remember has the file
+  }
+}
+
+function recall(model) {
+  try {
+    const data = localStorage.getItem(CATALOGUE)
+    if (data !== null && data.length <= LONGEST_CATALOGUE) model.send_msg({kind: "recalled", data})
+  } catch {
+    // nothing is remembered
   }
 }
 
@@ -126,6 +147,7 @@ export function render({model, view}) {
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
     if (message.kind === "introduce") answer()
+    if (message.kind === "remember") remember(message.data)
     if (message.kind === "save") save(message.name, new Blob([message.data], {type: message.type}))
   })
   view.model.document.on_event("connection_lost", comeBack)
@@ -135,5 +157,6 @@ export function render({model, view}) {
     choose: (...rest) => choose(model, ...rest),
   }
   resume(model)
+  recall(model)
   return document.createElement("span")
 }

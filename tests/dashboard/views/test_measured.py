@@ -12,8 +12,7 @@ from dashboard.views.measured import Measured
 
 TABLES = Path(__file__).parents[2] / "data" / "measured_stiffness"
 FINITE_ELEMENT, PAD, POLYURETHANE = (
-    (TABLES / f"{name}.csv").read_bytes()
-    for name in ("finite_element_pad", "pad_1_to_30_hz", "polyurethane")
+    (TABLES / f"{name}.csv").read_bytes() for name in ("finite_element_pad", "pad_1_to_30_hz", "polyurethane")
 )
 
 

@@ -6,7 +6,9 @@ import trackig_core as tig
 from dashboard.fields import CLOSED_GROUPS, FIELDS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
 from dashboard.session.inputs import DesignInputs, values_of
 from dashboard.session.results import Outcome
+from dashboard.session.shelf import Shelf
 from dashboard.session.special import OWN_RAIL
+from dashboard.views import sidebar
 from dashboard.views.sidebar import Controls
 
 
@@ -23,7 +25,7 @@ def outcome(summary):
 @pytest.fixture
 def panel(inputs, outcome, monkeypatch):
     """Return the panel; its answers are kept in ``answers``."""
-    quantities = Controls(inputs, outcome).quantities
+    quantities = Controls(inputs, outcome, Shelf()).quantities
     answers = []
     monkeypatch.setattr(quantities, "_send_msg", answers.append)
     quantities.answers = answers
@@ -223,3 +225,45 @@ def test_a_rail_of_one_s_own_shows_its_sliders(panel, inputs):
     give(panel, number=2, mass_per_metre=58)
     assert inputs.to_design().rail.mass_per_metre == 58
     assert panel.state["values"]["mass_per_metre"] == 58
+
+
+def pick(panel, kind, name):
+    """Send what the browser sends when a component is chosen."""
+    panel.handle_message({"kind": "pick", "of": kind, "name": name})
+
+
+def test_components_of_the_catalogue_are_offered_in_their_groups(panel):
+    assert {group["title"]: group["kinds"] for group in panel.groups if group["kinds"]} == {
+        "Rail pad": ["pad"],
+        "Block and boot": ["block", "boot"],
+        "Track": ["rail"],
+    }
+    for kind in ("rail", "pad", "block", "boot"):
+        assert panel.catalogue[kind] == [*tig.study.bundled_catalogue().of_kind(kind)]
+
+
+def test_a_chosen_component_becomes_the_design_s(panel, inputs):
+    before = inputs.to_design()
+    component = list(tig.study.bundled_catalogue().of_kind("pad").values())[-1]
+    pick(panel, "pad", component.name)
+    assert inputs.to_design() == component.fitted_to(before) != before
+    pick(panel, "rail", "49E1")
+    assert inputs.to_design().rail == tig.RAILS["49E1"]
+
+
+@pytest.mark.parametrize("sent", [("pad", "none such"), ("wheel", "60"), ("rail", ""), ("", "60")])
+def test_a_component_that_there_is_not_changes_nothing(panel, inputs, sent):
+    before = inputs.to_design()
+    pick(panel, *sent)
+    assert inputs.to_design() == before
+
+
+def test_a_boot_finds_no_place_on_a_single_stage_track(panel, inputs, monkeypatch):
+    told = []
+    monkeypatch.setattr(sidebar, "notify", lambda kind, words: told.append((kind, words)))
+    inputs.preset = "slab-track"
+    pick(panel, "boot", next(iter(tig.study.bundled_catalogue().of_kind("boot"))))
+    ((kind, words),) = told
+    assert kind == "warning"
+    assert "two-stage" in words
+    assert inputs.to_design() == tig.PRESETS["slab-track"]
