@@ -35,6 +35,7 @@ from dashboard.views.decide import Decide
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
 from dashboard.views.learn import Learn
+from dashboard.views.measured import Measured
 from dashboard.views.method import Method
 from dashboard.views.received_level import ReceivedLevel
 from dashboard.views.save_and_share import SaveAndShare, copy_button
@@ -95,6 +96,7 @@ def build(store=None, live_store=None):
     def edit_curve(name):
         measuring.param.update(part=name.split("_")[0], reading=None, answered=False)
         snapshot.tab = Track.link_name
+        exchange.reveal(Measured.place)
 
     def show_insertion_gain():
         snapshot.tab = Explore.link_name

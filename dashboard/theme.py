@@ -431,6 +431,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     text-align: right; font-variant-numeric: tabular-nums; border: none; outline: none; background: none;
 }}
 .unit {{ padding-right: 7px; font-size: 13px; color: var(--faint); }}
+.unit.wide {{ padding-right: 5px; font-size: 11px; letter-spacing: -0.3px; white-space: nowrap; }}
 .unit:empty {{ padding-right: 3px; }}
 .words, .advice {{ grid-column: 1 / -1; margin: 2px 0 4px 0; line-height: 1.35; overflow-wrap: anywhere; }}
 .words {{ font-size: 14px; }}

@@ -142,6 +142,10 @@ class Exchange(Scripted):
         """
         self._send_msg({"kind": "save", "name": name, "data": data, "type": kind})
 
+    def reveal(self, name):
+        """Have the browser bring the part of the page of a name into sight, once it is there."""
+        self._send_msg({"kind": "reveal", "name": name})
+
     def introduce(self):
         """Have the browser answer, now that a part of the page was added.
 

@@ -227,7 +227,7 @@ class InsertionGainFigure:
             line_color=None,
             hatch_pattern="left_diagonal_line",
             hatch_color=theme.EXTRAPOLATED,
-            hatch_alpha=0.6,
+            hatch_alpha=0.35,
             hatch_weight=1,
             hatch_scale=14,
         )

@@ -44,7 +44,14 @@ class Measured(Viewer):
         Which part it is of, and what was read.
     exchange : Exchange
         Opens files.
+
+    Attributes
+    ----------
+    place : str
+        Name of its part of the page.
     """
+
+    place = "measured_panel"
 
     def __init__(self, inputs, measuring, exchange):
         super().__init__()
@@ -154,7 +161,7 @@ class Measured(Viewer):
         fit = None if curve is None else tig.analysis.curve_fit(curve)
         paragraphs = [] if has_part else ["This track has one stage and no boots."]
         if is_preview:
-            paragraphs += reading_words(measuring.reading, measuring.is_open)
+            paragraphs += reading_words(measuring.reading, measuring.is_open, measuring.answered)
         if curve is None:
             paragraphs.append(f"Nothing is measured of the {part}: the sliders stand for it.")
         else:
@@ -187,6 +194,7 @@ class Measured(Viewer):
             self.words,
             pn.Column(*self.panes, stylesheets=[theme.FITTING_CSS], sizing_mode="stretch_width", margin=0),
             self.table,
+            name=self.place,
         )
 
 
@@ -195,10 +203,10 @@ TITLE_WORDS = "a test house's table in the place of stiffness and loss factor"
 EXAMPLE = "f [Hz]\tk [kN/mm]\tη\n5\t24.1\t0.16\n50\t28.0\t0.20"
 
 
-def reading_words(reading, is_open):
+def reading_words(reading, is_open, is_answered):
     """Return what is to be said of a table that was read, as sentences: unit, question, notes."""
-    source = "assumed: the table names none" if reading.is_assumed else "as the table says or you chose"
-    said = [f"Stiffness in {reading.unit}, {source}."]
+    source = "assumed: the table names none" if reading.is_assumed else "as the table says"
+    said = [f"Stiffness in {reading.unit}, {'as chosen' if is_answered else source}."]
     if is_open:
         said.append(f"Is that so? {_sentence(reading.question)} Choose the unit to go on.")
     return [*said, *(_sentence(each) for each in reading.notes)]

@@ -50,7 +50,14 @@ class Panel:
         self.page, self.inputs = page, DesignInputs()
         self.state = Controls(self.inputs, Outcome(), Shelf()).quantities.state
         groups = Controls(self.inputs, Outcome(), Shelf()).quantities.groups
-        properties = {"groups": groups, "state": self.state, "feasible": {}, "chips": {}, "catalogue": {}, **changes}
+        properties = {
+            "groups": groups,
+            "state": self.state,
+            "feasible": {},
+            "chips": {},
+            "catalogue": {},
+            **changes,
+        }
         page.evaluate(SHOW, [SCRIPT.read_text(encoding="utf-8"), QUANTITIES_CSS, properties])
 
     @property

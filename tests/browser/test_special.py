@@ -33,6 +33,7 @@ def test_a_table_becomes_the_pad_and_the_slider_comes_back(dashboard):
     expect(dashboard.get_by_role("status").filter(has_text="rest on extrapolation").first).to_be_visible()
     chip(dashboard, "Pad stiffness").click()
     expect(dashboard.get_by_role("tab", name="Track")).to_have_attribute("aria-selected", "true")
+    expect(dashboard.get_by_role("button", name="Remove from the pad")).to_be_in_viewport()
     dashboard.get_by_role("button", name="Remove from the pad").click()
     expect(slider(dashboard, "Pad stiffness, kN/mm")).to_be_visible()
     assert shown(dashboard, "Pad stiffness, kN/mm") == 100

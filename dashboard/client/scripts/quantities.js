@@ -150,7 +150,8 @@ class Quantity {
     )
     this.chip = element("button", {type: "button", className: "chip", hidden: true})
     this.chip.addEventListener("click", () => model.send_msg({kind: "chip", name: field.name}))
-    this.unit = element("span", {className: "unit", "aria-hidden": "true"}, field.unit)
+    const unitClass = field.unit.includes(" ") ? "unit wide" : "unit"
+    this.unit = element("span", {className: unitClass, "aria-hidden": "true"}, field.unit)
     this.frame = element("div", {className: "box"}, this.box, this.unit)
     this.advice = element("p", {className: "advice", id: `advice-${field.name}`, "aria-live": "polite"})
     this.root = element(

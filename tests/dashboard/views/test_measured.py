@@ -43,6 +43,7 @@ def test_a_unit_that_no_pad_has_is_asked_before_anything_is_used(editor):
     assert "are the figures in N/m?" in editor.words.object
     editor.unit.value = "N/m"
     assert not editor.use.disabled
+    assert "Stiffness in N/m, as chosen." in editor.words.object
     editor.use.clicks += 1
     curve = design_of(editor).pad_stiffness
     assert curve.points[0] == (199.5, 3.86e9, 0.1)
