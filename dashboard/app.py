@@ -26,13 +26,16 @@ from dashboard.compute.workers import shared_live_store, shared_store
 from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
+from dashboard.session.measuring import Measuring
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
+from dashboard.session.shelf import Shelf
 from dashboard.views.compare import Compare
 from dashboard.views.decide import Decide
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
 from dashboard.views.learn import Learn
+from dashboard.views.measured import Measured
 from dashboard.views.method import Method
 from dashboard.views.received_level import ReceivedLevel
 from dashboard.views.save_and_share import SaveAndShare, copy_button
@@ -87,7 +90,13 @@ def build(store=None, live_store=None):
     checker = VerificationRunner(outcome)
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
-    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
+    measuring, shelf = Measuring(), Shelf()
+    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot, shelf)
+
+    def edit_curve(name):
+        measuring.param.update(part=name.split("_")[0], reading=None, answered=False)
+        snapshot.tab = Track.link_name
+        exchange.reveal(Measured.place)
 
     def show_insertion_gain():
         snapshot.tab = Explore.link_name
@@ -98,7 +107,7 @@ def build(store=None, live_store=None):
         SpecificationView: partial(SpecificationView, assessment, exchange),
         Decide: partial(Decide, inputs, definition, pins, assessment),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
-        Track: partial(Track, inputs, outcome),
+        Track: partial(Track, inputs, outcome, measuring, shelf, exchange),
         Learn: partial(Learn, inputs, outcome, definition),
         Verify: partial(Verify, outcome, definition, checker.look),
         Method: Method,
@@ -111,7 +120,9 @@ def build(store=None, live_store=None):
     in_turns(put(exchange, bar_place, bar), report_error)
     last = chain(put(exchange, status_place, status), notify_of_problems(problems))
     shown = tabs(snapshot, makers, exchange, last)
-    return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
+    return page(
+        [bar_place, Controls(inputs, outcome, shelf, edit_curve)], status_place, shown, browser, exchange
+    )
 
 
 def put(exchange, place, make):

@@ -130,6 +130,21 @@ FIELDS = {
 }
 """Every number of a design by its name, in the order of the load path."""
 
+RAIL_FIELDS = {
+    field.name: field
+    for field in (
+        Field(
+            *("mass_per_metre", "Rail mass", "kg/m", 1.0, 20, 100, 0.1, "Track"),
+            "Mass per metre of a rail of one's own.",
+        ),
+        Field(
+            *("bending_stiffness", "Rail EI", "MN m²", 1e6, 0.5, 20, 0.01, "Track"),
+            "Young's modulus times second moment of area; for steel, 0.0021 MN m² for each cm⁴.",
+        ),
+    )
+}
+"""The numbers of a rail by name; a known section has its own."""
+
 CLOSED_GROUPS = ("Advanced",)
 """Groups of which the sidebar shows no more than the heading until somebody opens them."""
 
@@ -142,8 +157,15 @@ SECOND_STAGE = tuple(name for name, field in FIELDS.items() if field.second_stag
 STIFFNESSES = tuple(name for name, field in FIELDS.items() if field.logarithmic)
 """Inputs that span decades."""
 
-PHYSICAL = (*NUMBERS, "two_stage", "rail")
-"""Inputs that make the design: a change of any asks for a new solution."""
+CONTROLLED = (*NUMBERS, "two_stage", "rail")
+"""Inputs of a design that have a slider, a switch or a choice."""
+
+PHYSICAL = (*CONTROLLED, "special")
+"""Inputs that make the design: a change of any asks for a new solution. What is special stands in the place
+of what has a control."""
+
+SHOWN = ("preset", *CONTROLLED)
+"""What the sidebar shows of a design, and what a link holds."""
 
 INPUTS = ("preset", *PHYSICAL)
 """All that a user sets of a design."""

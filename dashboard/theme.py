@@ -24,6 +24,9 @@ PRESET_GHOST = "#808080"
 THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
+EXTRAPOLATED = "#808080"
+"""Hatching of bands that rest on more than was measured."""
+
 SPECIFICATION = "#c2410c"
 """The limit of a specification, and where it is exceeded."""
 
@@ -428,6 +431,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     text-align: right; font-variant-numeric: tabular-nums; border: none; outline: none; background: none;
 }}
 .unit {{ padding-right: 7px; font-size: 13px; color: var(--faint); }}
+.unit.wide {{ padding-right: 5px; font-size: 11px; letter-spacing: -0.3px; white-space: nowrap; }}
 .unit:empty {{ padding-right: 3px; }}
 .words, .advice {{ grid-column: 1 / -1; margin: 2px 0 4px 0; line-height: 1.35; overflow-wrap: anywhere; }}
 .words {{ font-size: 14px; }}
@@ -438,6 +442,10 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     text-align: left; border: 1px solid var(--accent); border-radius: 14px; background: none; cursor: pointer;
 }}
 .chip:hover {{ background: color-mix(in srgb, var(--accent) 15%, transparent); }}
+.pick {{
+    width: 116px; height: 24px; margin-left: auto; margin-right: 12px; padding: 0 20px 0 8px; font-size: 13px;
+    font-weight: 400; letter-spacing: 0;
+}}
 .disabled .label, .disabled .box, .disabled .track {{ opacity: 0.45; }}
 .disabled .track input {{ cursor: default; }}
 .disabled .box {{ pointer-events: none; }}
@@ -509,6 +517,15 @@ math { font-size: 17px; }
 .katex-display math { font-size: 19px; }
 """
 """Formulas as the browser sets them (MathML): KaTeX's own setting needs fonts that nobody here serves."""
+
+CATALOGUE_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+.scroll { max-height: 320px; overflow: auto; }
+table { border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }
+caption { text-align: left; font-weight: 500; padding-bottom: 4px; }
+th, td { text-align: left; vertical-align: top; padding: 3px 18px 3px 0; overflow-wrap: anywhere; }
+th { font-weight: 500; }
+"""
 
 SLOPES_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }

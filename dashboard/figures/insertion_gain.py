@@ -38,7 +38,7 @@ from dashboard.figures.legends import (
     pinned_entry,
     with_legend,
 )
-from dashboard.figures.swatches import excess_svg, limit_svg, swatch_svg
+from dashboard.figures.swatches import excess_svg, extrapolated_svg, limit_svg, swatch_svg
 from trackig_core.levels.specification import LEVEL_TOLERANCE
 
 LEAST_LEVELS = (-28.0, 18.0)
@@ -112,13 +112,17 @@ class InsertionGainFigure:
     limit : bokeh.models.ColumnDataSource
         Named ``limit``: per band its edges, the required ``limit`` [dB], ``before``, that of the band to the
         left, and ``failing``, the level of the design where it exceeds the limit; NaN where there is none.
+    extrapolated : bokeh.models.ColumnDataSource
+        Named ``extrapolated``: edges of the bands of the design that rest on more than was measured [Hz].
     """
 
     def __init__(self):
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
         self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
+        self.extrapolated = ColumnDataSource(name="extrapolated", data={"left": [], "right": []})
         self._drawn, self._limited, self._limit_drawn = (), False, False
+        self._beyond, self._beyond_drawn = (), False
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
             name="insertion_gain_figure",
@@ -203,6 +207,33 @@ class InsertionGainFigure:
         plot.renderers[behind:behind] = parts
         self._limit_drawn = True
 
+    def _show_extrapolated(self, bands):
+        """Hatch bands that rest on extrapolation over the whole height, behind all else."""
+        if bands == self._beyond:
+            return
+        self._beyond = bands
+        if not self._beyond_drawn:
+            self._draw_extrapolated()
+        at = [tig.BAND_LABELS.index(band) for band in bands]
+        self.extrapolated.data = {"left": tig.BAND_EDGES[:-1][at], "right": tig.BAND_EDGES[1:][at]}
+
+    def _draw_extrapolated(self):
+        hatching = Quad(
+            left="left",
+            right="right",
+            bottom=-HIGHER_THAN_ANY,
+            top=HIGHER_THAN_ANY,
+            fill_color=None,
+            line_color=None,
+            hatch_pattern="left_diagonal_line",
+            hatch_color=theme.EXTRAPOLATED,
+            hatch_alpha=0.35,
+            hatch_weight=1,
+            hatch_scale=14,
+        )
+        self.model.renderers.insert(0, GlyphRenderer(data_source=self.extrapolated, glyph=hatching))
+        self._beyond_drawn = True
+
     def name_axis(self, words):
         """Say on the axis which insertion gain is drawn."""
         self.model.yaxis.axis_label = words
@@ -213,7 +244,8 @@ class InsertionGainFigure:
         Parameters
         ----------
         current : DesignResult
-            The current design, solved; its natural frequencies are marked.
+            The current design, solved; its natural frequencies are marked, and bands hatched that rest on
+            extrapolation of what was measured.
         pinned : tuple of DesignResult
             Pinned designs, solved; the same ones again are not sent again.
         preset : DesignResult or None
@@ -227,6 +259,7 @@ class InsertionGainFigure:
         preset = NO_LEVELS if preset is None or alone else preset.levels
         self.bands.data = _band_columns(levels, preset)
         self._show_limit(limit, NO_LEVELS if alone else levels)
+        self._show_extrapolated(() if alone else current.summary.solution.extrapolated_bands)
         for part in (self._fill, self._line, self._dots):
             part.visible = not alone
         self._loaded_track.show(None if alone else natural.loaded_track)
@@ -274,6 +307,7 @@ class InsertionGainFigure:
             (np.isfinite(data["preset"]).any(), AS_IN_TABLE_1),
             (np.isfinite(limit["limit"]).any(), REQUIRED),
             (np.isfinite(limit["failing"]).any(), EXCEEDS),
+            (bool(self._beyond), EXTRAPOLATED),
         ]
         self.legend.show([*(entry for there, entry in drawn if there), *map(pinned_entry, pinned)])
 
@@ -281,7 +315,11 @@ class InsertionGainFigure:
 THIS_DESIGN = ("this design", swatch_svg(theme.THIS_DESIGN, dot=True))
 AS_IN_TABLE_1 = ("as in Table 1", swatch_svg(theme.PRESET_GHOST, theme.SECOND_DASH))
 REQUIRED, EXCEEDS = ("required maximum", limit_svg()), ("exceeds it", excess_svg())
+EXTRAPOLATED = ("beyond what was measured of this design", extrapolated_svg())
 """What the legend says beside the names of pinned designs."""
+
+HIGHER_THAN_ANY = 1e3
+"""A level that no axis reaches [dB]."""
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
 

@@ -48,6 +48,12 @@ def excess_svg():
     )
 
 
+def extrapolated_svg():
+    """Return a piece of the light hatching behind bands that rest on extrapolation."""
+    hatching = " ".join(f"M{x} 1L{x + 10} 11" for x in range(2, 24, 7))
+    return _drawing(f'<path d="{hatching}" fill="none" stroke="{theme.EXTRAPOLATED}" stroke-width="1.5"/>')
+
+
 def _drawing(parts):
     size = f'width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}"'
     return f'<svg class="swatch" {size} aria-hidden="true">{parts}</svg>'

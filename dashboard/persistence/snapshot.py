@@ -6,6 +6,7 @@ What is opened is checked as a whole before anything changes, and then replaces 
 import param
 
 import trackig_core as tig
+from dashboard.fields import INPUTS
 from dashboard.persistence import link, studies
 from dashboard.session.steps import Steps
 
@@ -43,7 +44,7 @@ class SessionSnapshot(param.Parameterized):
 
     def watch(self, callback):
         """Call back whenever anything changes that is kept."""
-        self.inputs.param.watch(callback, list(link.INPUTS))
+        self.inputs.param.watch(callback, list(INPUTS))
         self.definition.param.watch(callback, ["summation", "reference"])
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
         self.assessment.param.watch(callback, ["specification", "source", "title"])
@@ -63,6 +64,11 @@ class SessionSnapshot(param.Parameterized):
         """Return the query string of a link to what is on the page; it holds no specification or source."""
         view = {**self._view, "alone": str(int(self.pins.alone)), "tab": self.tab}
         return link.encode(self.inputs.to_values(), view, self.pins.pinned, self._base)
+
+    @property
+    def left_out(self):
+        """What a link to the designs on the page leaves out, in words; empty if it holds them all."""
+        return link.left_out(self.inputs.to_values(), self.pins.pinned)
 
     def study(self):
         """Return everything as a study (trackig_core.Study)."""

@@ -1,18 +1,15 @@
 """What the dashboard holds, as a study, and a study as what the dashboard holds.
 
 A study may hold more than sliders show: rails of one's own, springs as measured, numbers beyond a slider or
-of more figures. Numbers of sliders are in display units, those of a study in SI units.
-
-Nothing is rounded, clamped or dropped. A study that sliders cannot show exactly is refused as a whole, in
-words that name the design, the value and what sliders take; and what was saved opens as it was.
+of more figures. These are special inputs. Numbers of sliders are in display units, those of a study in SI
+units. Nothing is rounded, clamped or dropped: what was saved opens as it was.
 """
 
 from dataclasses import dataclass, replace
 
 import trackig_core as tig
-from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
-from dashboard.formats import quantity_text
-from dashboard.session.inputs import DesignInputs, design_of, preset_values, values_of
+from dashboard.fields import OPENING_PRESET
+from dashboard.session.inputs import design_of, preset_values, values_of
 from dashboard.session.pins import current_design, distinct_colours
 from dashboard.theme import MOST_PINNED
 
@@ -103,17 +100,16 @@ def from_study(study):
     Returns
     -------
     Opened
-        Values that sliders take, and that give exactly the study's designs.
+        Values that inputs take, and that give exactly the study's designs.
 
     Raises
     ------
     trackig_core.StudyError
-        If sliders cannot show one of the designs, or two pinned designs have one name.
+        If there are more pinned designs than the page shows, or two of them have one name.
     """
     if len(study.pinned) > MOST_PINNED:
         raise tig.StudyError(f"{len(study.pinned)} designs: the page shows at most {MOST_PINNED}", "pinned")
     current = current_design(study.design, study.preset)
-    _check(current.design, current.name, "design")
     preset = _preset(current)
     return Opened(
         values=preset_values(preset) | values_of(study.design, preset),
@@ -133,7 +129,6 @@ def _pins(pinned):
         path = f"pinned[{number}]"
         if any(each.name == other.name for other in pinned[:number]):
             raise tig.StudyError(f"two designs are called “{each.name}”; give each its own", f"{path}.name")
-        _check(each.design, f"“{each.name}”", f"{path}.design")
     return tuple(
         replace(each, colour=colour, preset=_preset(each))
         for each, colour in zip(pinned, colours, strict=True)
@@ -144,31 +139,3 @@ def _preset(pinned):
     """Return the preset from which a design departs: the one that it says, that it is, or the opening one."""
     same = (key for key, published in tig.PRESETS.items() if published == pinned.design)
     return pinned.preset or next(same, OPENING_PRESET)
-
-
-def _check(design, whose, path):
-    """Raise a StudyError that names a design and the path to it unless sliders show it exactly."""
-    if design.rail not in tig.RAILS.values():
-        known = ", ".join(tig.RAILS)
-        raise _refused(whose, path, "rail", f"{design.rail.name!r}, of its own values", known)
-    for field in NUMBERS:
-        if design.two_stage or field not in SECOND_STAGE:
-            _check_number(design, field, whose, path)
-
-
-def _check_number(design, field, whose, path):
-    """Raise a StudyError unless a slider shows a number of a design exactly."""
-    value, (low, high) = getattr(design, field), DesignInputs.param[field].bounds
-    takes = f"one number from {quantity_text(low)} to {quantity_text(high)}"
-    if not isinstance(value, float):
-        raise _refused(whose, path, field, "measured over frequency", takes)
-    shown = to_display(field, value)
-    if not low <= shown <= high:
-        raise _refused(whose, path, field, quantity_text(shown), takes)
-    if to_si(field, shown) != value:
-        raise _refused(whose, path, field, f"{value!r} in SI units", f"six figures, such as {shown!r}")
-
-
-def _refused(whose, path, field, found, takes):
-    label = DesignInputs.param[field].label
-    return tig.StudyError(f"{whose}: “{label}” is {found}; the sidebar takes {takes}", f"{path}.{field}")

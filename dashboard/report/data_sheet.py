@@ -10,7 +10,8 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.fields import FIELDS
 from dashboard.report import plots
-from dashboard.report.html_report import FREQUENCIES, TEMPLATES, hertz_text, input_text
+from dashboard.report.html_report import FREQUENCIES, TEMPLATES, hertz_text
+from dashboard.session.special import input_text
 
 PLOT_HEIGHT = 3.1
 """Height of the plot [inch]."""

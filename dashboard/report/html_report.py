@@ -13,10 +13,11 @@ import numpy as np
 
 import trackig_core as tig
 from dashboard import formats, theme
-from dashboard.fields import FIELDS, NEWTON_PER_METRE
+from dashboard.fields import FIELDS
 from dashboard.report import plots
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
 from dashboard.session.results import DesignResult
+from dashboard.session.special import input_text
 
 FREQUENCIES = (
     ("Loaded track", lambda natural: natural.loaded_track),
@@ -138,25 +139,6 @@ def _inputs(results, base):
         )
         for name, label, unit in rows
     ]
-
-
-def input_text(design, field):
-    """Return an input as the report shows it."""
-    value = getattr(design, field)
-    if value is None:
-        return "in the stiffness table" if _has_own_loss(design, field) else "–"
-    if isinstance(value, tig.Rail):
-        bending = formats.quantity_text(value.bending_stiffness / NEWTON_PER_METRE)
-        return f"{value.name}: {formats.quantity_text(value.mass_per_metre)} kg/m, {bending} MN m²"
-    if isinstance(value, tig.StiffnessCurve | tig.LossFactorCurve):
-        first, last = (formats.quantity_text(value.points[end][0]) for end in (0, -1))
-        return f"measured at {len(value.points)} frequencies, {first} to {last} Hz"
-    return formats.quantity_text(FIELDS[field].to_display(value))
-
-
-def _has_own_loss(design, field):
-    part = field.removesuffix("_loss_factor")
-    return part != field and isinstance(getattr(design, f"{part}_stiffness"), tig.StiffnessCurve)
 
 
 def _frequencies(results):

@@ -4,24 +4,36 @@
 insertion gain is shown. Designs in SI units become display values here, and back.
 """
 
+from dataclasses import replace
 from numbers import Real
 
 import param
 
 import trackig_core as tig
 from dashboard.fields import (
+    CONTROLLED,
     FIELDS,
     INPUTS,
     NUMBERS,
     OPENING_PRESET,
     PHYSICAL,
     PRESET_LABELS,
+    RAIL_FIELDS,
     SECOND_STAGE,
+    SHOWN,
     six_figures,
     to_display,
     to_si,
 )
 from dashboard.formats import quantity_text
+from dashboard.session.special import (
+    OWN_RAIL,
+    is_curve,
+    is_on_slider,
+    on_slider,
+    special_values,
+    with_special,
+)
 from trackig_core.typed_numbers import NumberError, read_number
 
 
@@ -44,9 +56,8 @@ def design_of(values):
         If the values do not make a track.
     """
     names = [name for name in NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
-    return tig.TrackDesign(
-        rail=tig.RAILS[values["rail"]], **{name: to_si(name, values[name]) for name in names}
-    )
+    fields = {name: to_si(name, values[name]) for name in names} | {"rail": tig.RAILS[values["rail"]]}
+    return tig.TrackDesign(**with_special(fields, values.get("special", {})))
 
 
 def display_values(design):
@@ -55,19 +66,21 @@ def display_values(design):
     Parameters
     ----------
     design : trackig_core.TrackDesign
-        A design whose rail is one of ``trackig_core.RAILS``.
+        Any design. What sliders do not show is ``special``; below it a slider stands at its end that is
+        nearest, and where that is no number, nothing is said of it.
 
     Returns
     -------
     dict
         Values for :class:`DesignInputs` [display units].
     """
-    rail = next(key for key, rail in tig.RAILS.items() if rail == design.rail)
+    known = {rail: {"rail": key} for key, rail in tig.RAILS.items()}
     numbers = {name: getattr(design, name) for name in NUMBERS}
     return {
         "two_stage": design.two_stage,
-        "rail": rail,
-        **{name: to_display(name, value) for name, value in numbers.items() if value is not None},
+        **known.get(design.rail, {}),
+        **{name: on_slider(name, value) for name, value in numbers.items() if isinstance(value, float)},
+        "special": special_values(design),
     }
 
 
@@ -77,7 +90,7 @@ def values_of(design, preset=None):
     Parameters
     ----------
     design : trackig_core.TrackDesign
-        A design that sliders can show.
+        Any design.
     preset : str, optional
         Key of ``trackig_core.PRESETS`` from which it departs; without one the sliders keep theirs.
 
@@ -105,15 +118,17 @@ class InputError(ValueError):
     """What a user gave is no value of an input; the message says why, and what is."""
 
 
-def read_input(name, given):
+def read_input(name, given, reach=None):
     """Return the value of an input that a user gave.
 
     Parameters
     ----------
     name : str
-        One of :data:`PHYSICAL`.
+        One of :data:`CONTROLLED`, or a number of a rail.
     given : object
         A value, or text as it was typed, with or without unit.
+    reach : tuple of float, optional
+        Least and greatest value [display unit]; by default those of the slider.
 
     Returns
     -------
@@ -125,13 +140,14 @@ def read_input(name, given):
     InputError
         If it is none, or lies beyond the range.
     """
-    parameter = DesignInputs.param[name]
-    if name not in FIELDS:
+    field = FIELDS.get(name) or RAIL_FIELDS.get(name)
+    if field is None:
+        parameter = DesignInputs.param[name]
         values = parameter.objects if isinstance(parameter, param.Selector) else (True, False)
         if type(given) not in (bool, str) or given not in values:
             raise InputError("choose one of what is offered")
         return given
-    unit, (low, high) = FIELDS[name].unit, parameter.bounds
+    unit, (low, high) = field.unit, reach or (field.low, field.high)
     takes = f"{quantity_text(low)} to {quantity_text(high)} {unit}".rstrip()
     if isinstance(given, str):
         try:
@@ -182,19 +198,27 @@ class DesignInputs(param.Parameterized):
     )
     wheel_mass = _number("wheel_mass")
     contact_stiffness = _number("contact_stiffness")
+    special = param.Dict(
+        default={},
+        doc="What stands in the place of a slider or choice, by field [SI units]; never changed in place.",
+    )
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
     refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")
 
     gesture = None
     """Number of the user's gesture to which a change belongs while it is noted; None: nobody says."""
 
-    _taking = False
+    def __init__(self, **params):
+        super().__init__(**params)
+        self._as_whole = False
+        self._reach = {}
+        self.param.watch(self._give_way, [*NUMBERS, "rail"])
 
     @param.depends("preset", watch=True)
     def revert(self):
         """Set every input to the preset's value; inputs that the preset does not have keep theirs."""
-        if not self._taking:
-            self.param.update(**display_values(self.preset_design), refused={})
+        if not self._as_whole:
+            self._set(display_values(self.preset_design), {})
         self._note_modified()
 
     @property
@@ -222,13 +246,29 @@ class DesignInputs(param.Parameterized):
         values = {name: getattr(self, name) for name in INPUTS}
         return {**values, **{name: six_figures(values[name]) for name in NUMBERS}}
 
+    def to_shown(self):
+        """Return what the controls show, by name [display units].
+
+        Numbers beyond a slider are there as they are, a rail of one's own as :data:`OWN_RAIL`, and the
+        numbers of the rail whichever it is.
+        """
+        values = {name: getattr(self, name) for name in SHOWN}
+        numbers = {name: value for name, value in self.special.items() if name in FIELDS}
+        for name, value in numbers.items():
+            if not is_curve(value):
+                values[name] = to_display(name, value)
+        rail = self.to_design().rail
+        of_rail = {name: field.to_display(getattr(rail, name)) for name, field in RAIL_FIELDS.items()}
+        return {**values, **of_rail, "rail": OWN_RAIL if "rail" in self.special else self.rail}
+
     def take(self, values):
         """Set several inputs as one change, the preset among them without reverting to it.
 
         Parameters
         ----------
         values : mapping
-            Values by name of :data:`INPUTS`, such as :meth:`to_values` gave [display units].
+            Values by name of :data:`INPUTS`, such as :meth:`to_values` gave [display units]. Unless they say
+            what is special, it gives way where they set something else.
 
         Raises
         ------
@@ -236,11 +276,7 @@ class DesignInputs(param.Parameterized):
             If a value is not allowed; then nothing has changed.
         """
         check_values(values)
-        self._taking = True
-        try:
-            self.param.update(**values, refused={})
-        finally:
-            self._taking = False
+        self._set({"special": self._special_without(values), **values}, {})
 
     def take_given(self, given, gesture=None):
         """Set what a user gave, as one change; what cannot be read stays as it was and is noted as refused.
@@ -249,15 +285,15 @@ class DesignInputs(param.Parameterized):
         ----------
         given : mapping
             What was given, whatever it is, by name; names that are no inputs are passed over. A preset sets
-            all other inputs first.
+            all other inputs first. A number beyond a slider is taken where the slider has been extended.
         gesture : int, optional
             Number of the gesture that gave it.
         """
         values, refused = {}, {}
-        for name in PHYSICAL:
-            if name in given:
+        for name in (*CONTROLLED, *RAIL_FIELDS):
+            if name in given and (name, given[name]) != ("rail", OWN_RAIL):
                 try:
-                    values[name] = read_input(name, given[name])
+                    values[name] = read_input(name, given[name], self._reach.get(name))
                 except InputError as error:
                     refused[name] = str(error)
         self.gesture = gesture
@@ -265,9 +301,56 @@ class DesignInputs(param.Parameterized):
             if given.get("preset") in tuple(tig.PRESETS):
                 self.preset = given["preset"]
             earlier = {name: words for name, words in self.refused.items() if name not in values}
-            self.param.update(**values, refused={**earlier, **refused})
+            self._set(self._with_special(values, given.get("rail")), {**earlier, **refused})
         finally:
             self.gesture = None
+
+    def _set(self, values, refused):
+        """Set inputs as one change, as they are."""
+        self._as_whole = True
+        try:
+            self.param.update(**values, refused=refused)
+        finally:
+            self._as_whole = False
+
+    def _with_special(self, values, rail):
+        """Return what was given as inputs, what no control holds as special."""
+        special = self._special_without(values)
+        of_rail = {name: values.pop(name) for name in RAIL_FIELDS if name in values}
+        if of_rail or rail == OWN_RAIL:
+            special["rail"] = self._own_rail(of_rail)
+        for name in FIELDS.keys() & values.keys():
+            if not is_on_slider(name, exact := to_si(name, values[name])):
+                special[name], values[name] = exact, on_slider(name, exact)
+        return {**values, "special": special}
+
+    def _own_rail(self, changes):
+        """Return the rail as one of its own, with other numbers [display units]."""
+        rail = self.to_design().rail
+        name = OWN_RAIL if rail in tig.RAILS.values() else rail.name
+        numbers = {each: RAIL_FIELDS[each].to_si(value) for each, value in changes.items()}
+        return replace(rail, name=name, **numbers)
+
+    def _special_without(self, values):
+        """Return what is special, but of the inputs that are set."""
+        return {name: value for name, value in self.special.items() if name not in values}
+
+    def _give_way(self, *events):
+        """Let what is special give way to what is set one by one."""
+        if not self._as_whole:
+            self.special = self._special_without({event.name for event in events})
+
+    @param.depends("special", watch=True)
+    def _extend(self):
+        """Note how far sliders reach that were extended."""
+        fields = {**FIELDS, **RAIL_FIELDS}
+        numbers = {name: each for name, each in self.special.items() if name in FIELDS and not is_curve(each)}
+        if rail := self.special.get("rail"):
+            numbers |= {name: getattr(rail, name) for name in RAIL_FIELDS}
+        for name, value in numbers.items():
+            field, shown = fields[name], fields[name].to_display(value)
+            low, high = self._reach.get(name, (field.low, field.high))
+            self._reach[name] = min(low, shown), max(high, shown)
 
     @param.depends("two_stage", watch=True)
     def _forget_second_stage(self):

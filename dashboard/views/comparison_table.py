@@ -9,7 +9,8 @@ import trackig_core as tig
 from dashboard import formats
 from dashboard.fields import FIELDS, six_figures
 from dashboard.figures.swatches import swatch_svg
-from dashboard.session.inputs import DesignInputs, display_values
+from dashboard.session.inputs import DesignInputs
+from dashboard.session.special import input_text, rail_text
 
 NONE = "–"
 
@@ -66,22 +67,19 @@ def _cell(text, difference):
 
 
 def _parameter_rows(results, base):
-    every = [display_values(each.design) for each in results]
-    own = display_values(base.design)
-    yield "Stages", [("two" if values["two_stage"] else "one", "") for values in every]
+    yield "Stages", [("two" if each.design.two_stage else "one", "") for each in results]
     for name, field in FIELDS.items():
-        yield (
-            field.labelled,
-            [_parameter_cell(values.get(name), own.get(name)) for values in every],
-        )
-    yield DesignInputs.param.rail.label, [(values["rail"], "") for values in every]
+        yield field.labelled, [_parameter_cell(name, each.design, base.design) for each in results]
+    yield DesignInputs.param.rail.label, [(rail_text(each.design.rail), "") for each in results]
 
 
-def _parameter_cell(value, base):
-    if value is None:
-        return NONE, ""
-    difference = 0.0 if base is None else six_figures(value - base)
-    return formats.quantity_text(value), f"{difference:+.6g}".replace("-", "−") if difference else ""
+def _parameter_cell(name, design, base):
+    text, values = input_text(design, name), [getattr(each, name) for each in (design, base)]
+    if not all(isinstance(each, float) for each in values):
+        return text, ""
+    value, own = map(FIELDS[name].to_display, values)
+    difference = six_figures(value - own)
+    return text, f"{difference:+.6g}".replace("-", "−") if difference else ""
 
 
 def _frequency_rows(results, base):

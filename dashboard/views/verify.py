@@ -173,14 +173,14 @@ class Verify(Tab):
     def _show_damping(self, solution):
         design = solution.design
         laws = {"pad": solution.pad_law, "boot": solution.boot_law}
-        stated = {"pad": design.pad_loss_factor, "boot": design.boot_loss_factor}
         stiffness, loss_factor = {}, {}
         for part, law in laws.items():
             present = law is not None
             stiffness[part] = law.dynamic_stiffness(DAMPED).real / law.stiffness(50.0) if present else NOTHING
-            stiffness[f"{part}_stated"] = NOTHING
+            stated = stated_spring(design, part)
+            stiffness[f"{part}_stated"] = stated[0] / law.stiffness(50.0) if present else NOTHING
             loss_factor[part] = law.loss_factor(DAMPED) if present else NOTHING
-            loss_factor[f"{part}_stated"] = np.full_like(DAMPED, stated[part]) if present else NOTHING
+            loss_factor[f"{part}_stated"] = stated[1]
         self.stiffness.show(DAMPED, **stiffness)
         self.loss_factor.show(DAMPED, **loss_factor)
         worst = max(law.worst_error for law in laws.values() if law is not None)
@@ -228,6 +228,19 @@ BELOW = 317.0
 """Frequency up to which the independent package is compared in words [Hz]: the 315 Hz band's centre."""
 
 HALF = {"xs": 12, "lg": 6}
+
+
+def stated_spring(design, part):
+    """Return the stiffness [N/m] and loss factor [-] that were stated of a part, over DAMPED; NaN if not.
+
+    Of a stiffness that is a number, only the loss factor is stated over frequency.
+    """
+    stiffness, loss_factor = (getattr(design, f"{part}_{what}") for what in ("stiffness", "loss_factor"))
+    if isinstance(stiffness, tig.StiffnessCurve):
+        return stiffness.stiffness(DAMPED), stiffness.loss_factor(DAMPED)
+    if isinstance(loss_factor, tig.LossFactorCurve):
+        return NOTHING, loss_factor.loss_factor(DAMPED)
+    return NOTHING, NOTHING if loss_factor is None else np.full_like(DAMPED, loss_factor)
 
 
 def largest(differences):

@@ -1,6 +1,7 @@
 """What is computed of a design or a solution beside its gain: causes, errors, shapes, comparisons."""
 
 from trackig_core.analysis.asymptotes import Asymptote, MeasuredSlope, gain_asymptotes, measured_slopes
+from trackig_core.analysis.curve_fit import CurveFit, curve_fit
 from trackig_core.analysis.damping import (
     LOSS_FACTORS,
     DampingCurve,
@@ -48,6 +49,7 @@ __all__ = [
     "GOOD_ENOUGH",
     "LOSS_FACTORS",
     "Asymptote",
+    "CurveFit",
     "DampingCurve",
     "Departure",
     "FrequencySweep",
@@ -65,6 +67,7 @@ __all__ = [
     "TrackResponse",
     "Verification",
     "compare_with_beam",
+    "curve_fit",
     "cut_on",
     "damping_curves",
     "departure",
