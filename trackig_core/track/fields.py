@@ -61,11 +61,15 @@ STATIC_FIELDS = (
 )
 """Numbers of a standing wheel, and of what it may sink."""
 
+WHEELBASE = Field("wheelbase", "m", 0.5, 100.0, "wheelbase_m")
+"""Distance of a second standing wheel."""
+
 DEFAULT_WHEEL_LOAD = 85e3
 """Static load of a wheel where none is given [N]: half an axle load of 17 t."""
 
 RANGES = {
-    each.name: (each.low, each.high, each.unit) for each in (*RAIL_FIELDS, *DESIGN_FIELDS, *STATIC_FIELDS)
+    each.name: (each.low, each.high, each.unit)
+    for each in (*RAIL_FIELDS, *DESIGN_FIELDS, *STATIC_FIELDS, WHEELBASE)
 }
 """Lowest and highest value, and unit, of each number by name."""
 
