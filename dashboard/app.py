@@ -94,7 +94,7 @@ def build(store=None, live_store=None):
 
     makers = {
         Explore: partial(Explore, outcome, definition, pins, assessment),
-        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain),
+        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain, exchange),
         SpecificationView: partial(SpecificationView, assessment, exchange),
         Decide: partial(Decide, inputs, definition, pins, assessment),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),

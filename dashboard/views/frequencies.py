@@ -146,7 +146,10 @@ def statics_html(statics):
 def _figure(key, name, before, figure, words):
     """Return one static figure: large, what bounds it in small letters before it, then what it is."""
     small = f"<small>{before}</small> " if before else ""
-    return f'<section class="main {key}"><h3>{name}</h3><p class="figure">{small}{figure}</p><p>{words}</p></section>'
+    return (
+        f'<section class="main {key}"><h3>{name}</h3><p class="figure">{small}{figure}</p>'
+        f"<p>{words}</p></section>"
+    )
 
 
 def _card(key, computed, observed, name, words):
