@@ -36,7 +36,7 @@ class MeasuredGains(Viewer):
     def __init__(self, assessment, exchange=None):
         super().__init__()
         self._assessment = assessment
-        self.name = pmui.TextInput(
+        self.name_box = pmui.TextInput(
             label="Name of the curve",
             max_length=LONGEST_TITLE,
             size="small",
@@ -67,7 +67,7 @@ class MeasuredGains(Viewer):
 
     def take(self, data):
         """Take a table, as bytes or text, as one more curve, or say why not; return whether it was taken."""
-        kept, name = self._assessment.measured, self.name.value.strip()
+        kept, name = self._assessment.measured, self.name_box.value.strip()
         if len(kept) >= MOST_MEASURED:
             return self._refuse(MANY)
         if name and not is_name(name, LONGEST_TITLE):
@@ -77,7 +77,7 @@ class MeasuredGains(Viewer):
         except tig.BandTableError as error:
             return self._refuse(f"Not taken: {error}.")
         curve = dataclasses.replace(reading.table, name=_free(name or reading.table.name, kept))
-        self.name.value = ""
+        self.name_box.value = ""
         self._assessment.measured = (*kept, curve)
         self._tell(f"Taken; {'; '.join(reading.notes)}." if reading.notes else "", "status")
         return True
@@ -116,7 +116,7 @@ class MeasuredGains(Viewer):
         """Return what is put on the page."""
         return pmui.Column(
             self._rows,
-            pmui.FlexBox(self.name, self.load, margin=0),
+            pmui.FlexBox(self.name_box, self.load, margin=0),
             self.pasted,
             self.apply,
             self.message,

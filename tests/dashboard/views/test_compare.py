@@ -280,7 +280,7 @@ def test_a_ninth_pin_is_refused_and_its_name_kept(bar):
 
 def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     inputs = DesignInputs()
-    track = Track(inputs, Outcome(summary=summary("slab-track")))
+    track = Track(inputs, Outcome(summary=summary("slab-track")), None, lambda _: None)
     assert track.drawing.object == ""
     track.look(active=True)
     inputs.block_mass = 222.0

@@ -18,13 +18,13 @@ def view(session):
 
 
 def test_a_pasted_table_becomes_a_named_curve_and_no_specification(session, view):
-    view.name.value = "Site A"
+    view.name_box.value = "Site A"
     view.pasted.value = TABLE
     view._take_area()
     assert session.assessment.measured == (tig.levels.MeasuredGain([(31.5, -6), (63, -12.5)], "Site A"),)
     assert session.assessment.specification is None
     assert session.assessment.current.verdict is None
-    assert (view.name.value, view.pasted.value) == ("", "")
+    assert (view.name_box.value, view.pasted.value) == ("", "")
 
 
 def test_names_are_made_to_differ_and_four_are_enough(session, view):
