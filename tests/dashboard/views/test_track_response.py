@@ -17,7 +17,7 @@ class FakeExchange:
     def __init__(self):
         self.saved = {}
 
-    def save(self, name, data, kind="text/csv"):
+    def save(self, name, data):
         self.saved[name] = data
 
 
@@ -25,6 +25,10 @@ class FakeExchange:
 def view(session):
     session.show("booted-block-low-mass")
     session.pin("slab-track", "Slab")
+    return view_of(session)
+
+
+def view_of(session):
     responses = TrackResponses(session.assessment)
     return TrackResponseView(session.assessment, responses, session.snapshot, FakeExchange())
 
@@ -46,7 +50,7 @@ def test_nothing_is_computed_while_nobody_looks(view):
     assert view.points.lines.data["x"] == []
 
 
-def test_receptances_and_decay_rates_of_all_shown_designs_are_drawn(session, view):
+def test_receptances_and_decay_rates_of_all_shown_designs_are_drawn(view):
     look(view)
     expected = tig.analysis.track_response(tig.PRESETS["slab-track"])
     drawn = view.points.lines.data
@@ -69,8 +73,10 @@ def test_mobility_is_drawn_by_choice(view):
     assert view.points.model.yaxis.axis_label == "Mobility, mm/(s kN)"
 
 
-def test_hidden_designs_are_not_drawn(session, view):
-    session.pins.show(session.pins.pinned[0].key, False)
+def test_hidden_designs_are_not_drawn(session):
+    session.show("booted-block-low-mass")
+    session.pins.show(session.pin("slab-track", "Slab").key, False)
+    view = view_of(session)
     look(view)
     assert set(view.decay.lines.data["name"]) == {"This design"}
 
