@@ -63,7 +63,8 @@ class LinesFigure:
             y_axis_label=label,
             stylesheets=[theme.MEDIUM],
         )
-        show_one_two_five(self.model.xaxis[0])
+        for axis in (self.model.xaxis[0], self.model.yaxis[0]):
+            show_one_two_five(axis)
         drawn = self.model.multi_line(
             xs="x", ys="y", line_color="colour", line_dash="dash", line_width="width", source=self.lines
         )

@@ -158,11 +158,11 @@ class Compare(Tab):
             pmui.Grid(pinned, size=12),
             pmui.Grid(gains, size=12),
             pmui.Grid(difference, size=12),
-            pmui.Grid(table, size=12),
             pmui.Grid(
                 pmui.Paper(caption("Measured insertion gain", MEASURED_WORDS), self.measured, **PAPER),
                 size=12,
             ),
+            pmui.Grid(table, size=12),
             container=True,
             spacing=1,
             sizing_mode="stretch_width",
