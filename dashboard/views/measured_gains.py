@@ -104,12 +104,12 @@ class MeasuredGains(Viewer):
 
     def _row(self, curve, shape):
         bands = f"{len(curve.points)} bands, {curve.points[0][0]:g} to {curve.points[-1][0]:g} Hz"
-        words = f"{marker_svg(shape, theme.THEORY)} {html.escape(curve.name)}: {bands}"
+        words = f"<p>{marker_svg(shape, theme.THEORY)} {html.escape(curve.name)}: {bands}</p>"
         remove = pmui.Button(
             label="Remove", size="small", variant="text", on_click=lambda _: self.remove(curve)
         )
         return pmui.Row(
-            pn.pane.HTML(words, stylesheets=[theme.MESSAGE_CSS], margin=(8, 8, 0, 12)), remove, margin=0
+            pn.pane.HTML(words, stylesheets=[theme.CAPTION_CSS], margin=(8, 8, 0, 12)), remove, margin=0
         )
 
     def __panel__(self):
