@@ -38,7 +38,7 @@ from dashboard.figures.legends import (
     pinned_entry,
     with_legend,
 )
-from dashboard.figures.swatches import MARKERS, excess_svg, limit_svg, marker_svg, swatch_svg
+from dashboard.figures.swatches import MARKERS, excess_svg, limit_svg, point_svg, swatch_svg
 from trackig_core.levels.specification import LEVEL_TOLERANCE
 
 LEAST_LEVELS = (-28.0, 18.0)
@@ -309,7 +309,7 @@ class InsertionGainFigure:
             [
                 *(entry for there, entry in drawn if there),
                 *map(pinned_entry, pinned),
-                *((f"{MEASURED} {each.name}", marker_svg(shape, theme.THEORY)) for each, shape in points),
+                *((f"{MEASURED} {each.name}", point_svg(shape, theme.THEORY)) for each, shape in points),
             ]
         )
 

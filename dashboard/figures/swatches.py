@@ -28,6 +28,12 @@ def swatch_svg(colour, dash=(), *, dot=False):
     return _drawing(line + (f'<circle cx="17" cy="6" r="5.5" fill="{colour}"/>' if dot else ""))
 
 
+def marker_svg(colour, marker):
+    """Return a design's marker, ``"circle"`` or ``"diamond"``, as a map has it."""
+    shape = {"circle": '<circle cx="17" cy="6" r="5"', "diamond": '<path d="M17 0L21 6L17 12L13 6Z"'}[marker]
+    return _drawing(f'{shape} fill="{colour}"/>')
+
+
 def limit_svg():
     """Return a short piece of a limit, which steps from band to band."""
     return _drawing(f'<path d="M1 9H17V3H33" fill="none" stroke="{theme.SPECIFICATION}" stroke-width="3"/>')
@@ -42,7 +48,7 @@ def excess_svg():
     )
 
 
-def marker_svg(shape, colour):
+def point_svg(shape, colour):
     """Return a point of a curve that is drawn as points: one of Bokeh's markers of :data:`MARKERS`."""
     return _drawing(f'<path d="{MARKERS[shape]}" fill="none" stroke="{colour}" stroke-width="2"/>')
 

@@ -14,7 +14,7 @@ import trackig_core as tig
 from dashboard import theme
 from dashboard.client.exchange import opening
 from dashboard.figures.insertion_gain import MEASURED_MARKERS
-from dashboard.figures.swatches import marker_svg
+from dashboard.figures.swatches import point_svg
 from trackig_core.levels.band_tables import MOST_BYTES
 from trackig_core.names import LONGEST_TITLE, allowed, is_name
 from trackig_core.study.studies import MOST_MEASURED
@@ -104,7 +104,7 @@ class MeasuredGains(Viewer):
 
     def _row(self, curve, shape):
         bands = f"{len(curve.points)} bands, {curve.points[0][0]:g} to {curve.points[-1][0]:g} Hz"
-        words = f"<p>{marker_svg(shape, theme.THEORY)} {html.escape(curve.name)}: {bands}</p>"
+        words = f"<p>{point_svg(shape, theme.THEORY)} {html.escape(curve.name)}: {bands}</p>"
         remove = pmui.Button(
             label="Remove", size="small", variant="text", on_click=lambda _: self.remove(curve)
         )
