@@ -26,19 +26,13 @@ MOST = {
     "study": studies.MOST_BYTES,
     "specification": band_tables.MOST_BYTES,
     "source": band_tables.MOST_BYTES,
+    "measured": band_tables.MOST_BYTES,
     "stiffness": band_tables.MOST_BYTES,
     "catalogue": studies.MOST_BYTES,
 }
 """Size that a file may have [bytes], by what it is opened for."""
 
-TABLES = ".csv,.txt,.tsv"
-ACCEPTED = {
-    "study": ".toml",
-    "specification": TABLES,
-    "source": TABLES,
-    "stiffness": TABLES,
-    "catalogue": ".toml",
-}
+ACCEPTED = dict.fromkeys(MOST, ".csv,.txt,.tsv") | dict.fromkeys(("study", "catalogue"), ".toml")
 """What the browser's dialog offers, by what a file is opened for."""
 
 REST = 0.3

@@ -15,7 +15,16 @@ from dataclasses import dataclass
 from urllib.parse import urlencode
 
 import trackig_core as tig
-from dashboard.fields import FIELDS, NUMBERS, OPENING_PRESET, SHOWN
+from dashboard.fields import (
+    EVERY_FIELD,
+    EXTRA_FIELDS,
+    EXTRAS,
+    FIELDS,
+    LOAD,
+    NUMBERS,
+    OPENING_PRESET,
+    SHOWN,
+)
 from dashboard.formats import name_text, quantity_text
 from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
 from dashboard.session.pins import free_colour, free_name
@@ -42,6 +51,9 @@ FILE = "file"
 PINS = "pins"
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+
+EXTRA_SEPARATOR, EXTRA_SIGN = ";", "="
+"""Between the extra numbers of a pin, and between name and number."""
 
 CHOICES = {
     "preset": tuple(DesignInputs.param.preset.objects),
@@ -104,7 +116,8 @@ def encode(values, view=None, pins=(), base=None):
     pins = tuple(pins)
     held = [pin for pin in pins if not _too_much(special_values(pin.design))]
     missing = [*_too_much(values.get("special", {})), *([PINS] if len(held) < len(pins) else [])]
-    pairs = [("v", VERSION), *zip(SHOWN, _texts(values), strict=True), *(view or {}).items()]
+    pairs = [("v", VERSION), *zip(SHOWN, _texts(values), strict=True)]
+    pairs += [*_extras(values).items(), *(view or {}).items()]
     pairs += [("pin", _pin_text(pin)) for pin in held]
     if base is not None and pins[base] in held:
         pairs.append(("base", str(held.index(pins[base]) + 1)))
@@ -146,6 +159,12 @@ def _texts(values):
         yield repr(exact / FIELDS[name].factor) if isinstance(exact, float) else _text(values[name])
 
 
+def _extras(values):
+    """Return the texts of the extra numbers that are set, by name."""
+    given = {name: values.get(name, EXTRA_FIELDS[name].default) for name in EXTRAS}
+    return {name: _text(value) for name, value in given.items() if value != EXTRA_FIELDS[name].default}
+
+
 def _text(value):
     if isinstance(value, str):
         return value
@@ -155,7 +174,9 @@ def _text(value):
 def _pin_text(pin):
     # the format has a place for every input: those that a single-stage track lacks are as its preset opens
     values = preset_values(pin.preset or OPENING_PRESET) | values_of(pin.design)
-    return SEPARATOR.join((str(pin.colour), str(int(pin.shown)), *_texts(values), pin.name))
+    extras = (EXTRA_SIGN.join(each) for each in _extras(values).items() if each[0] not in LOAD)
+    shown = EXTRA_SEPARATOR.join((str(int(pin.shown)), *extras))
+    return SEPARATOR.join((str(pin.colour), shown, *_texts(values), pin.name))
 
 
 def decode(arguments, view_choices=VIEW_CHOICES):
@@ -201,8 +222,8 @@ def _key_text(key):
 
 def _label(name):
     """Return what an input or a choice is called on the page, without its unit."""
-    if name in FIELDS:
-        return FIELDS[name].label
+    if name in EVERY_FIELD:
+        return EVERY_FIELD[name].label
     label = DesignInputs.param[name].label if name in SHOWN else name.replace("_", " ").capitalize()
     return label.split(":")[0]
 
@@ -259,7 +280,10 @@ def _values(given, whose, problems):
     exact = {name: float(f"{value * FIELDS[name].factor:.15g}") for name, value in numbers.items()}
     special = {name: value for name, value in exact.items() if not is_on_slider(name, value)}
     shown = {name: on_slider(name, value) for name, value in exact.items()}
-    return {**values, **shown, "special": special}
+    extras = {
+        name: _number(name, given[name], values[name], whose, problems) for name in EXTRAS if name in given
+    }
+    return {**values, **shown, **extras, "special": special}
 
 
 def _is_allowed(name, text, allowed, whose, problems):
@@ -270,10 +294,14 @@ def _is_allowed(name, text, allowed, whose, problems):
 
 
 def _number(name, text, otherwise, whose, problems):
-    """Return a number within the range of what can be solved [display unit]."""
-    low, high = (end / FIELDS[name].factor for end in RANGES[name][:2])
+    """Return a number within the range of what can be solved, an extra one within its slider's range."""
+    if name in EXTRA_FIELDS:
+        low, high = EXTRA_FIELDS[name].low, EXTRA_FIELDS[name].high
+    else:
+        low, high = (end / FIELDS[name].factor for end in RANGES[name][:2])
     if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
-        problems.append(f"{whose}{_label(name)} is no number; {quantity_text(otherwise)} was taken.")
+        taken = "it was ignored" if otherwise is None else f"{quantity_text(otherwise)} was taken"
+        problems.append(f"{whose}{_label(name)} is no number; {taken}.")
         return otherwise
     number = float(text)
     clamped = min(max(number, low), high)
@@ -306,7 +334,10 @@ def _pin(text, before, whose, problems):
     if len(parts) != len(SHOWN) + 3 or any(given[key] not in allowed for key, allowed in CHOICES.items()):
         problems.append(f"{whose}it cannot be read; it was ignored.")
         return None
-    colour, shown, *_, name = parts
+    colour, settings, *_, name = parts
+    shown, *extras = settings.split(EXTRA_SEPARATOR)
+    extra = dict(each.partition(EXTRA_SIGN)[::2] for each in extras)
+    given |= {key: each for key, each in extra.items() if key in EXTRAS and key not in LOAD}
     taken = {pin.colour for pin in before}
     free = {str(index): index for index in range(MOST_PINNED) if index not in taken}
     values = _values(given, whose, problems)

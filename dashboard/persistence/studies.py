@@ -8,8 +8,9 @@ units. Nothing is rounded, clamped or dropped: what was saved opens as it was.
 from dataclasses import dataclass, replace
 
 import trackig_core as tig
-from dashboard.fields import OPENING_PRESET
-from dashboard.session.inputs import design_of, preset_values, values_of
+from dashboard.fields import LOAD, OPENING_PRESET, to_display, to_si
+from dashboard.formats import quantity_text
+from dashboard.session.inputs import DesignInputs, design_of, load_of, preset_values, values_of
 from dashboard.session.pins import current_design, distinct_colours
 from dashboard.theme import MOST_PINNED
 
@@ -34,6 +35,8 @@ class Opened:
         Levels on the reference track.
     name : str
         What the study is called.
+    measured : tuple of trackig_core.levels.MeasuredGain
+        Insertion gain from elsewhere.
     """
 
     values: dict
@@ -43,9 +46,19 @@ class Opened:
     specification: tig.Specification | None
     source: tig.SourceSpectrum | None
     name: str
+    measured: tuple[tig.levels.MeasuredGain, ...] = ()
 
 
-def to_study(values, view=None, pins=(), base=None, specification=None, source=None, name=tig.Study.name):
+def to_study(
+    values,
+    view=None,
+    pins=(),
+    base=None,
+    specification=None,
+    source=None,
+    name=tig.Study.name,
+    measured=(),
+):
     """Return a study of what the dashboard holds.
 
     Parameters
@@ -64,6 +77,8 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         Levels on the reference track.
     name : str
         What the study is called.
+    measured : iterable of trackig_core.levels.MeasuredGain
+        Insertion gain from elsewhere.
 
     Returns
     -------
@@ -85,6 +100,8 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         view=tig.View(**(view or {}), base=base),
         name=name,
         preset=values["preset"],
+        load=load_of(values),
+        measured=measured,
     )
 
 
@@ -112,14 +129,23 @@ def from_study(study):
     current = current_design(study.design, study.preset)
     preset = _preset(current)
     return Opened(
-        values=preset_values(preset) | values_of(study.design, preset),
+        values=preset_values(preset) | values_of(study.design, preset) | _load(study.load),
         pins=_pins(study.pinned),
         base=study.view.base,
         view={"summation": study.view.summation, "reference": study.view.reference},
         specification=study.specification,
         source=study.source,
         name=study.name,
+        measured=study.measured,
     )
+
+
+def _load(load):
+    """Return the wheels that stand on the track as inputs, or raise a StudyError."""
+    for name in LOAD:
+        if getattr(load, name) is not None:
+            _check_number(load, name, "the study", "load")
+    return {name: to_display(name, getattr(load, name)) for name in LOAD}
 
 
 def _pins(pinned):
@@ -139,3 +165,19 @@ def _preset(pinned):
     """Return the preset from which a design departs: the one that it says, that it is, or the opening one."""
     same = (key for key, published in tig.PRESETS.items() if published == pinned.design)
     return pinned.preset or next(same, OPENING_PRESET)
+
+
+def _check_number(load, field, whose, path):
+    """Raise a StudyError unless a slider shows a number of the standing wheels exactly."""
+    value, (low, high) = getattr(load, field), DesignInputs.param[field].bounds
+    takes = f"one number from {quantity_text(low)} to {quantity_text(high)}"
+    shown = to_display(field, value)
+    if not low <= shown <= high:
+        raise _refused(whose, path, field, quantity_text(shown), takes)
+    if to_si(field, shown) != value:
+        raise _refused(whose, path, field, f"{value!r} in SI units", f"six figures, such as {shown!r}")
+
+
+def _refused(whose, path, field, found, takes):
+    label = DesignInputs.param[field].label
+    return tig.StudyError(f"{whose}: “{label}” is {found}; the sidebar takes {takes}", f"{path}.{field}")

@@ -4,6 +4,7 @@
 insertion gain is shown. Designs in SI units become display values here, and back.
 """
 
+import re
 from dataclasses import replace
 from numbers import Real
 
@@ -12,8 +13,12 @@ import param
 import trackig_core as tig
 from dashboard.fields import (
     CONTROLLED,
+    EVERY_FIELD,
+    EXTRA_FIELDS,
+    EXTRAS,
     FIELDS,
     INPUTS,
+    LOAD,
     NUMBERS,
     OPENING_PRESET,
     PHYSICAL,
@@ -43,7 +48,8 @@ def design_of(values):
     Parameters
     ----------
     values : mapping
-        Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused.
+        Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused, and
+        extra numbers may be missing.
 
     Returns
     -------
@@ -55,9 +61,29 @@ def design_of(values):
     trackig_core.DesignError
         If the values do not make a track.
     """
-    names = [name for name in NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
-    fields = {name: to_si(name, values[name]) for name in names} | {"rail": tig.RAILS[values["rail"]]}
+    names = [name for name in _DESIGN_NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
+    given = {name: values[name] if name in NUMBERS else _extra(values, name) for name in names}
+    fields = {name: to_si(name, value) for name, value in given.items()}
+    fields["rail"] = tig.RAILS[values["rail"]]
     return tig.TrackDesign(**with_special(fields, values.get("special", {})))
+
+
+_DESIGN_NUMBERS = tuple(name for name in EVERY_FIELD if name not in LOAD)
+
+
+def _extra(values, name):
+    return values.get(name, EXTRA_FIELDS[name].default)
+
+
+def load_of(values):
+    """Return the wheels that stand on the track (trackig_core.study.StaticLoad), in SI units.
+
+    Parameters
+    ----------
+    values : mapping
+        Values by name [display units]; those that are missing are as on a fresh page.
+    """
+    return tig.study.StaticLoad(**{name: to_si(name, _extra(values, name)) for name in LOAD})
 
 
 def display_values(design):
@@ -76,10 +102,16 @@ def display_values(design):
     """
     known = {rail: {"rail": key} for key, rail in tig.RAILS.items()}
     numbers = {name: getattr(design, name) for name in NUMBERS}
+    extras = [name for name in EXTRAS if name in _DESIGN_NUMBERS]
     return {
         "two_stage": design.two_stage,
         **known.get(design.rail, {}),
         **{name: on_slider(name, value) for name, value in numbers.items() if isinstance(value, float)},
+        **{
+            name: None if getattr(design, name) is None else on_slider(name, getattr(design, name))
+            for name in extras
+            if design.two_stage or name not in SECOND_STAGE
+        },
         "special": special_values(design),
     }
 
@@ -104,13 +136,17 @@ def values_of(design, preset=None):
 
 def _number(name):
     """Return the parameter of a number, as the table of fields describes it."""
-    field = FIELDS[name]
+    field = EVERY_FIELD[name]
+    opening = (
+        field.to_display(getattr(tig.PRESETS[OPENING_PRESET], name)) if name in NUMBERS else field.default
+    )
     return param.Number(
-        default=field.to_display(getattr(tig.PRESETS[OPENING_PRESET], name)),
+        default=opening,
         bounds=(field.low, field.high),
         step=field.step,
         label=field.labelled,
         doc=field.words,
+        allow_None=bool(field.blank),
     )
 
 
@@ -118,7 +154,11 @@ class InputError(ValueError):
     """What a user gave is no value of an input; the message says why, and what is."""
 
 
-def read_input(name, given, reach=None):
+RATIO = re.compile(r"[x×]\s*(?P<after>.+)|(?P<before>.+?)\s*[x×]", re.IGNORECASE)
+"""How a dynamic over a static stiffness is typed: ``1.4x`` or ``× 1.4``."""
+
+
+def read_input(name, given, reach=None, dynamic=None):
     """Return the value of an input that a user gave.
 
     Parameters
@@ -129,34 +169,47 @@ def read_input(name, given, reach=None):
         A value, or text as it was typed, with or without unit.
     reach : tuple of float, optional
         Least and greatest value [display unit]; by default those of the slider.
+    dynamic : float, optional
+        The dynamic stiffness, where a static one may be given as a part of it [display unit].
 
     Returns
     -------
-    float, bool or str
-        The value [display unit].
+    float, bool, str or None
+        The value [display unit]; None where nothing was given and nothing is allowed.
 
     Raises
     ------
     InputError
         If it is none, or lies beyond the range.
     """
-    field = FIELDS.get(name) or RAIL_FIELDS.get(name)
+    field = EVERY_FIELD.get(name) or RAIL_FIELDS.get(name)
     if field is None:
         parameter = DesignInputs.param[name]
         values = parameter.objects if isinstance(parameter, param.Selector) else (True, False)
         if type(given) not in (bool, str) or given not in values:
             raise InputError("choose one of what is offered")
         return given
+    if field.blank and (given is None or (isinstance(given, str) and not given.strip())):
+        return None
     unit, (low, high) = field.unit, reach or (field.low, field.high)
     takes = f"{quantity_text(low)} to {quantity_text(high)} {unit}".rstrip()
     if isinstance(given, str):
+        ratio = None if dynamic is None else RATIO.fullmatch(given.strip())
         try:
-            given = read_number(given, unit)
+            if ratio is None:
+                given = read_number(given, unit)
+            else:
+                given = _part(dynamic, read_number(ratio["after"] or ratio["before"], ""))
         except NumberError as error:
             raise InputError(f"{error}; this box takes {takes}") from None
     if not isinstance(given, Real) or isinstance(given, bool) or not low <= given <= high:
         raise InputError(f"give {takes}")
     return float(given)
+
+
+def _part(dynamic, ratio):
+    """Return the static stiffness of which a dynamic one is a multiple."""
+    return six_figures(dynamic / ratio) if ratio > 0 else ratio
 
 
 def preset_values(key):
@@ -202,6 +255,11 @@ class DesignInputs(param.Parameterized):
         default={},
         doc="What stands in the place of a slider or choice, by field [SI units]; never changed in place.",
     )
+    stiffness_frequency = _number("stiffness_frequency")
+    pad_static_stiffness = _number("pad_static_stiffness")
+    boot_static_stiffness = _number("boot_static_stiffness")
+    wheel_load = _number("wheel_load")
+    wheelbase = _number("wheelbase")
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
     refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")
 
@@ -212,7 +270,7 @@ class DesignInputs(param.Parameterized):
         super().__init__(**params)
         self._as_whole = False
         self._reach = {}
-        self.param.watch(self._give_way, [*NUMBERS, "rail"])
+        self.param.watch(self._give_way, [*NUMBERS, *EXTRAS, "rail"])
 
     @param.depends("preset", watch=True)
     def revert(self):
@@ -244,7 +302,12 @@ class DesignInputs(param.Parameterized):
     def to_values(self):
         """Return every input that a user sets, by name, float dust taken off: what :meth:`take` takes."""
         values = {name: getattr(self, name) for name in INPUTS}
-        return {**values, **{name: six_figures(values[name]) for name in NUMBERS}}
+        numbers = (name for name in (*NUMBERS, *EXTRAS) if values[name] is not None)
+        return {**values, **{name: six_figures(values[name]) for name in numbers}}
+
+    def to_load(self):
+        """Return the wheels that stand on the track (trackig_core.study.StaticLoad), in SI units."""
+        return load_of(self.to_values())
 
     def to_shown(self):
         """Return what the controls show, by name [display units].
@@ -252,8 +315,8 @@ class DesignInputs(param.Parameterized):
         Numbers beyond a slider are there as they are, a rail of one's own as :data:`OWN_RAIL`, and the
         numbers of the rail whichever it is.
         """
-        values = {name: getattr(self, name) for name in SHOWN}
-        numbers = {name: value for name, value in self.special.items() if name in FIELDS}
+        values = {name: getattr(self, name) for name in (*SHOWN, *EXTRAS)}
+        numbers = {name: value for name, value in self.special.items() if name in EVERY_FIELD}
         for name, value in numbers.items():
             if not is_curve(value):
                 values[name] = to_display(name, value)
@@ -290,10 +353,13 @@ class DesignInputs(param.Parameterized):
             Number of the gesture that gave it.
         """
         values, refused = {}, {}
-        for name in (*CONTROLLED, *RAIL_FIELDS):
+        for name in (*CONTROLLED, *EXTRAS, *RAIL_FIELDS):
             if name in given and (name, given[name]) != ("rail", OWN_RAIL):
+                dynamic = name.replace("_static", "") if "_static" in name else None
                 try:
-                    values[name] = read_input(name, given[name], self._reach.get(name))
+                    values[name] = read_input(
+                        name, given[name], self._reach.get(name), dynamic and getattr(self, dynamic)
+                    )
                 except InputError as error:
                     refused[name] = str(error)
         self.gesture = gesture
@@ -343,8 +409,9 @@ class DesignInputs(param.Parameterized):
     @param.depends("special", watch=True)
     def _extend(self):
         """Note how far sliders reach that were extended."""
-        fields = {**FIELDS, **RAIL_FIELDS}
-        numbers = {name: each for name, each in self.special.items() if name in FIELDS and not is_curve(each)}
+        fields = {**EVERY_FIELD, **RAIL_FIELDS}
+        special = self.special.items()
+        numbers = {name: each for name, each in special if name in EVERY_FIELD and not is_curve(each)}
         if rail := self.special.get("rail"):
             numbers |= {name: getattr(rail, name) for name in RAIL_FIELDS}
         for name, value in numbers.items():

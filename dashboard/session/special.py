@@ -7,7 +7,15 @@ the slider's own value is the design's.
 import dataclasses
 
 import trackig_core as tig
-from dashboard.fields import FIELDS, NEWTON_PER_METRE, NUMBERS, SECOND_STAGE, to_display, to_si
+from dashboard.fields import (
+    EVERY_FIELD,
+    EXTRAS,
+    NEWTON_PER_METRE,
+    NUMBERS,
+    SECOND_STAGE,
+    to_display,
+    to_si,
+)
 from dashboard.formats import quantity_text
 from trackig_core.track.design import measured_curves
 
@@ -19,7 +27,7 @@ DEFAULTS = {
     for each in dataclasses.fields(tig.TrackDesign)
     if each.name not in (*NUMBERS, "rail")
 }
-"""Numbers of a design that have no slider, and what they are unless a study says otherwise."""
+"""What a design has beside its usual numbers, and what it is unless somebody says otherwise."""
 
 
 def is_curve(value):
@@ -48,20 +56,21 @@ def special_values(design):
         if isinstance(value, float) and not is_on_slider(name, value):
             found[name] = value
     for name, default in DEFAULTS.items():
-        if getattr(design, name) != default:
-            found[name] = getattr(design, name)
+        value = getattr(design, name)
+        if value != default and not (name in EXTRAS and is_on_slider(name, value)):
+            found[name] = value
     return found
 
 
 def is_on_slider(name, value):
     """Return whether a slider shows a number of a design [SI unit] exactly."""
-    field, shown = FIELDS[name], to_display(name, value)
+    field, shown = EVERY_FIELD[name], to_display(name, value)
     return field.low <= shown <= field.high and to_si(name, shown) == value
 
 
 def on_slider(name, value):
     """Return where a slider stands for a number of a design [display unit]: at its nearest end if beyond."""
-    field = FIELDS[name]
+    field = EVERY_FIELD[name]
     return min(max(to_display(name, value), field.low), field.high)
 
 
@@ -81,8 +90,7 @@ def with_special(fields, special):
         Fields of a :class:`trackig_core.TrackDesign`; those of a stage that is not there are left out.
     """
     two_stage = "block_mass" in fields
-    second = (*SECOND_STAGE, "boot_static_stiffness")
-    there = {name: value for name, value in special.items() if two_stage or name not in second}
+    there = {name: value for name, value in special.items() if two_stage or name not in SECOND_STAGE}
     found = {**fields, **there}
     for part in ("pad", "boot"):
         if isinstance(found.get(f"{part}_stiffness"), tig.StiffnessCurve):
@@ -97,7 +105,7 @@ def input_text(design, field):
         return "in the stiffness table" if _has_own_loss(design, field) else "–"
     if isinstance(value, tig.Rail):
         return _rail_figures(value)
-    return curve_text(value) if is_curve(value) else quantity_text(FIELDS[field].to_display(value))
+    return curve_text(value) if is_curve(value) else quantity_text(EVERY_FIELD[field].to_display(value))
 
 
 def rail_text(rail):

@@ -10,7 +10,7 @@ from panel.viewable import Viewer
 import trackig_core as tig
 from dashboard.client.exchange import notify
 from dashboard.client.quantities import Quantities
-from dashboard.fields import CLOSED_GROUPS, FIELDS, INPUTS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
+from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, INPUTS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
 from dashboard.session.inputs import display_values, values_of
 from dashboard.session.special import OWN_RAIL, curve_text, is_curve, rail_text
 
@@ -127,9 +127,9 @@ def groups(inputs):
     """
     track = [_choice(inputs, "preset", replaces=True), {"kind": "departure", "label": "Back to Table 1"}]
     found = [{"title": "", "closed": False, "kinds": [], "fields": track}]
-    for title in dict.fromkeys(field.group for field in FIELDS.values()):
+    for title in dict.fromkeys(field.group for field in EVERY_FIELD.values()):
         rows = [_other(inputs, name) for name in FIRST_ROWS.get(title, ())]
-        rows += [_number(field) for field in FIELDS.values() if field.group == title]
+        rows += [_number(field) for field in EVERY_FIELD.values() if field.group == title]
         rows += [_other(inputs, name) for name in LAST_ROWS.get(title, ())]
         rows += [_number(field) for field in RAIL_FIELDS.values() if field.group == title]
         found.append(
@@ -165,7 +165,7 @@ def chips(inputs):
 
 
 def _number(field):
-    shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words")
+    shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words", "blank")
     return {"kind": "number", **{name: getattr(field, name) for name in shown}}
 
 

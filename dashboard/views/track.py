@@ -20,7 +20,7 @@ from trackig_core.names import LONGEST_NAME, allowed, is_name
 
 
 class Track(Tab):
-    """The drawing, and the natural frequencies beside it.
+    """The drawing, the natural frequencies beside it, and the track's response below.
 
     Parameters
     ----------
@@ -34,14 +34,18 @@ class Track(Tab):
         The catalogue.
     exchange : Exchange
         Opens tables.
+    response : TrackResponseView
+        How the track answers a hammer.
+    on_look : callable
+        Called with whether anybody looks: only then are responses computed.
     """
 
     title = "Track"
     link_name = "track"
 
-    def __init__(self, inputs, outcome, measuring, shelf, exchange):
+    def __init__(self, inputs, outcome, measuring, shelf, exchange, response, on_look):
         super().__init__()
-        self._inputs = inputs
+        self._inputs, self.response, self._on_look = inputs, response, on_look
         self.drawing = pn.pane.HTML(
             "", sizing_mode="stretch_width", stylesheets=[theme.DRAWING_CSS], margin=(0, 12, 8, 12)
         )
@@ -57,6 +61,7 @@ class Track(Tab):
     def refresh(self):
         """Draw the track as it stands."""
         self.frequencies.look(self.in_sight)
+        self._on_look(self.in_sight)
         self._draw()
 
     def _draw(self, *_):
@@ -80,10 +85,10 @@ class Track(Tab):
             self.rail_name.param.update(error_state=True, helper_text=f"give {allowed()}")
 
     def fill(self, place):
-        """Put the drawing into its place, then what was measured, and the catalogue."""
+        """Put the drawing into its place, then the response, what was measured, and the catalogue."""
         place.objects = [self._drawn()]
         yield
-        for part in (self.measured, self.catalogue):
+        for part in (self.response, self.measured, self.catalogue):
             made = part.__panel__()
             made.margin = (0, 8, 8, 8)
             place.append(made)
@@ -103,6 +108,7 @@ class Track(Tab):
         return pmui.Grid(
             pmui.Grid(drawing, size={"xs": 12, "lg": 8}),
             pmui.Grid(frequencies, size={"xs": 12, "lg": 4}),
+            pmui.Grid(self.response, size=12),
             container=True,
             spacing=1,
             sizing_mode="stretch_width",

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from dashboard.fields import NUMBERS, SHOWN, six_figures
+from dashboard.fields import EXTRA_FIELDS, EXTRAS, NUMBERS, SHOWN, six_figures
 from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode, left_out
 from dashboard.session.inputs import (
     DesignInputs,
@@ -53,6 +53,11 @@ def pin(name, colour, values, shown=True):
     return tig.PinnedDesign(name, design_of(values), colour, shown, values["preset"])
 
 
+def extra(name):
+    """Return any value of an extra number: nothing too, where there may be none."""
+    return st.one_of(st.just(EXTRA_FIELDS[name].default), number(name))
+
+
 any_values = st.fixed_dictionaries(
     {
         "preset": st.sampled_from([*tig.PRESETS]),
@@ -60,6 +65,7 @@ any_values = st.fixed_dictionaries(
         "rail": st.sampled_from([*tig.RAILS]),
         **{name: number(name) for name in NUMBERS},
         "special": st.just({}),
+        **{name: extra(name) for name in EXTRAS},
     }
 )
 any_view = st.fixed_dictionaries(
@@ -98,6 +104,21 @@ def test_the_whole_design_is_in_a_link_even_if_it_is_the_opening_one():
     assert {*SHOWN} <= arguments(encode(OPENING)).keys()
 
 
+def test_extra_numbers_stand_in_a_link_only_where_they_are_set():
+    assert not {*EXTRAS} & arguments(encode(OPENING)).keys()
+    set_ = OPENING | {"wheelbase": 2.5, "stiffness_frequency": 10.0}
+    assert {*EXTRAS} & arguments(encode(set_)).keys() == {"wheelbase", "stiffness_frequency"}
+
+
+@pytest.mark.parametrize(
+    "extras", ["x", "pad_static_stiffness", "pad_static_stiffness=", "wheel_load=9", ";;=1"]
+)
+def test_extra_numbers_of_a_pin_that_cannot_be_read_change_nothing(extras):
+    (kept,) = opened(pin=pin_text(shown=f"1;{extras}")).pins
+    assert kept.design == design_of(OPENING)
+    assert kept.shown
+
+
 def test_a_kept_link_opens_the_same_study_for_ever():
     link = decode(arguments(LINK_OF_VERSION_1))
     assert link.problems == ()
@@ -114,6 +135,7 @@ def test_a_kept_link_opens_the_same_study_for_ever():
         "wheel_mass": 900.0,
         "contact_stiffness": 1300.0,
         "special": {},
+        **{name: field.default for name, field in EXTRA_FIELDS.items()},
     }
     assert link.view == {"summation": "coherent", "reference": "rigid"}
     (opened_pin,) = link.pins

@@ -287,9 +287,15 @@ class FakeExchange:
         """Take no file."""
 
 
+def track_of(inputs, picture):
+    """Return the tab Track of a solved design, without the response to a hammer."""
+    outcome = Outcome(summary=picture)
+    return Track(inputs, outcome, Measuring(), Shelf(), FakeExchange(), None, lambda _: None)
+
+
 def test_a_rail_of_one_s_own_is_named_on_the_track(summary):
     inputs = DesignInputs()
-    track = Track(inputs, Outcome(summary=summary("slab-track")), Measuring(), Shelf(), FakeExchange())
+    track = track_of(inputs, summary("slab-track"))
     track.look(active=True)
     assert not track.rail_name.visible
     inputs.take_given({"rail": "own"})
@@ -304,8 +310,7 @@ def test_a_rail_of_one_s_own_is_named_on_the_track(summary):
 
 def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     inputs = DesignInputs()
-    exchange = FakeExchange()
-    track = Track(inputs, Outcome(summary=summary("slab-track")), Measuring(), Shelf(), exchange)
+    track = track_of(inputs, summary("slab-track"))
     assert track.drawing.object == ""
     track.look(active=True)
     inputs.block_mass = 222.0
@@ -387,3 +392,21 @@ def test_own_rails_and_curves_are_compared_in_words(fake_picture):
     assert cells["Boot loss factor"][1] == "in the stiffness table"
     assert cells["Rail section"] == ["60", "worn: 58 kg/m, 6 MN m²", "60"]
     assert "60 and worn: 58 kg/m, 6 MN m²" in likeness_words([each.design for each in results])
+
+
+def test_statics_stand_side_by_side_and_only_extra_numbers_that_are_set():
+    block = tig.PRESETS["booted-block-low-mass"]
+    stated = block.replace(pad_static_stiffness=70e6, boot_static_stiffness=20e6, stiffness_frequency=10.0)
+    load = tig.study.StaticLoad(100e3)
+    results = [
+        DesignResult(tig.PinnedDesign("one", design), statics=load.response(design))
+        for design in (block, stated)
+    ]
+    text = table_html(results, results[0], [])
+    first, second = (1e3 * each.statics.rail_deflection for each in results)
+    assert "Under one wheel of 100 kN" in text
+    assert f"<td>≥ {first:.2f}</td>" in text
+    assert f'<td>{second:.2f}<span class="difference">+{second - first:.2f}</span></td>' in text
+    assert "Stiffness stated at, Hz" in text
+    assert "Pad static stiffness" in text
+    assert "Pad static stiffness" not in table_html(results[:1], results[0], [])
