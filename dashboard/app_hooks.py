@@ -7,6 +7,7 @@ import gc
 
 from bokeh.core.validation import silence
 from bokeh.core.validation.warnings import EMPTY_LAYOUT
+from panel.io.resources import LOCAL_DIST
 from tornado.ioloop import IOLoop
 
 import trackig_core as tig
@@ -39,6 +40,14 @@ def on_server_loaded(server_context):
     # a page that is made of the opening picture asks for no other
     loop = IOLoop.current()
     opening.future.add_done_callback(lambda _: loop.add_callback(rehearse))
+
+
+def on_session_created(session_context):
+    """Have a session's style sheets come from this server, as the first page's do.
+
+    Panel notes where from when it answers with a page; here sessions begin after that.
+    """
+    session_context._document._template_variables["dist_url"] = LOCAL_DIST
 
 
 def on_session_destroyed(session_context):

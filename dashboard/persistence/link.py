@@ -194,7 +194,7 @@ def decode(arguments, view_choices=VIEW_CHOICES):
     Link
         A design that can be solved, and words on what could not be read.
     """
-    known = ("v", "pin", "base", FILE, *SHOWN, *view_choices)
+    known = ("v", "pin", "base", FILE, *SHOWN, *EXTRAS, *view_choices)
     problems = [
         f"“{_key_text(key)}” is nothing that a link can set; it was ignored."
         for key in arguments

@@ -200,7 +200,6 @@ CURVE = tig.StiffnessCurve([(5, 90e6, 0.1), (500, 150e6, 0.2)])
 NEEDS_FILE = {
     "a curve": ({"pad_stiffness": CURVE, "pad_loss_factor": None}, "Pad stiffness", "pad stiffness"),
     "a rail": ({"rail": tig.Rail("UIC 60 worn", 58.0, 6e6)}, "Rail section", "rail section"),
-    "static stiffness": ({"pad_static_stiffness": 8e7}, "Pad static stiffness", "pad static stiffness"),
 }
 
 
