@@ -13,7 +13,7 @@ from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shar
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
 from dashboard.server import first_page, sessions
-from dashboard.server_log import leave_out_departures
+from dashboard.server_log import leave_out_departures, leave_out_empty_places
 
 # the server is made after its hooks are read
 first_page.install()
@@ -22,6 +22,7 @@ first_page.install()
 def on_server_loaded(server_context):
     """Have kernels compiled and the presets solved while pages are served, the opening one first."""
     leave_out_departures()
+    leave_out_empty_places()
     compiled()
     opening, *_ = [
         shared_store().request((tig.PRESETS[key], AT_REST))

@@ -55,28 +55,30 @@ def test_mutated_links_open_a_design_that_the_sliders_can_show():
     assert problems > 0
 
 
+SILENCE = 20
+"""Time after which a connection counts as one that waits for the rest of a message [s]."""
+
+
 async def disturb(url, seed, count):
-    """Send nonsense, each connection until it is cut off; return how many were opened, and what came back."""
-    chance, connections, answers, sent = seeded(seed), 0, [], 0
+    """Send nonsense, on each connection until it is cut off; return how many were opened, and what came back.
+
+    A plain question follows each message: its answer, or the end of the connection, says that the message
+    was dealt with.
+    """
+    chance, connections, refusals, sent = seeded(seed), 0, [], 0
     while sent < count:
-        visitor = await Visitor(url).open()
+        visitor = await Visitor(url).open(drawn=False)
         connections += 1
-        listening = asyncio.create_task(listen(visitor, answers))
-        with contextlib.suppress(WebSocketClosedError):
-            while sent < count and not listening.done():
+        with contextlib.suppress(WebSocketClosedError, ConnectionError, TimeoutError):
+            while sent < count:
+                sent += 1
                 for frame in frames(chance, visitor.models):
                     await visitor.socket.write_message(frame, binary=isinstance(frame, bytes))
-                sent += 1
-                await asyncio.sleep(0)
+                await visitor.send("SERVER-INFO-REQ", {})
+                async with asyncio.timeout(SILENCE):
+                    refusals += await visitor.refusals()
         visitor.close()
-        await listening
-    return connections, answers
-
-
-async def listen(visitor, answers):
-    with contextlib.suppress(ConnectionError):
-        while True:
-            answers.append(await visitor.receive("ERROR"))
+    return connections, refusals
 
 
 @pytest.mark.slow
@@ -92,8 +94,14 @@ def test_nonsense_on_the_socket_disturbs_nobody_else(served):
         polite.close()
         return pictures, *await busy
 
+    said = len(served.log.read_text().splitlines())
     pictures, connections, answers = asyncio.run(beside())
     assert pictures > 0
     assert connections > 0
     assert answers
     assert [each["traceback"] for each in answers if each["traceback"] is not None] == []
+    lines = served.log.read_text().splitlines()[said:]
+    assert not any("Traceback" in each for each in lines)
+    # one each, at most, and none of two screens
+    assert len(lines) <= 30
+    assert max(map(len, lines)) < 400
