@@ -369,6 +369,9 @@ def _are_bands(column: Column) -> bool:
 def _levels(table: Table, frequencies: Column, quantity: Quantity) -> Column:
     """Return the column that holds the levels, or raise the quantity's error if several may."""
     others = [each for each in _uncounted(table.columns) if each is not frequencies]
+    if not others:
+        message = f"no column holds {quantity.column}: add one beside the frequencies"
+        raise quantity.error(message, frequencies.head.line, frequencies.head.column)
     named = [each for each in others if each.header.casefold() == quantity.column]
     able = [each for each in others if each.unit is None or each.unit.quantity == "level"]
     in_decibels = [each for each in able if each.unit is not None]
