@@ -1,4 +1,4 @@
-"""What the server's log leaves out: readers who leave in the middle of a message, and places yet to be filled.
+"""What the log leaves out: readers who leave in the middle of a message, and places yet to be filled.
 
 A page that is closed while its messages are handled, or while a picture is on its way to it, makes Bokeh and
 Tornado log a traceback each time, although nothing went wrong. Every other error stays in the log.

@@ -1,4 +1,4 @@
-"""Threads that sessions share fairly: whoever has the least under way comes first, then whoever waited longest.
+"""Threads that sessions share fairly: who has the least under way comes first, then who waited longest.
 
 A common queue would have a session wait behind all that others have asked for.
 """
