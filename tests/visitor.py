@@ -47,8 +47,8 @@ class Visitor:
         self.answered = self.pictures = 0
         self._count = self._number = 0
 
-    async def open(self, pull=True, origin=None):
-        """Ask for the page, then for the document in it, unless that is left out; wait for the picture."""
+    async def open(self, pull=True, origin=None, drawn=True):
+        """Ask for the page, then for the document in it, then wait for the picture, unless left out."""
         page = await AsyncHTTPClient().fetch(self.url, request_timeout=120)
         token = re.search(r'"token":"([^"]+)"', page.body.decode())[1]
         parts = urlsplit(self.url)
@@ -63,6 +63,7 @@ class Visitor:
         await self.receive("ACK")
         if pull:
             await self.pull()
+        if pull and drawn:
             await self.until(lambda: self.named("insertion_gain") is not None, 120)
         return self
 
@@ -107,6 +108,13 @@ class Visitor:
         for part in ({"msgid": f"{id(self)}-{self._count}", "msgtype": kind}, {}, content):
             await self.socket.write_message(json.dumps(part))
 
+    async def refusals(self):
+        """Return what the server refuses until it answers a plain question."""
+        refused = []
+        while (told := await self._message())[0] != "SERVER-INFO-REPLY":
+            refused += [told[1]] if told[0] == "ERROR" else []
+        return refused
+
     async def receive(self, kind=None):
         """Return the content of the next message of a kind, or of any; buffers are left out.
 
@@ -116,15 +124,19 @@ class Visitor:
             If the server has closed the socket.
         """
         while True:
-            header = await self._frame()
-            await self._frame()
-            content = await self._frame()
-            for _ in range(2 * header.get("num_buffers", 0)):
-                await self.socket.read_message()
-            if header["msgtype"] == "PATCH-DOC":
-                self._heed(content["events"])
-            if kind in (None, header["msgtype"]):
+            found, content = await self._message()
+            if kind in (None, found):
                 return content
+
+    async def _message(self):
+        header = await self._frame()
+        await self._frame()
+        content = await self._frame()
+        for _ in range(2 * header.get("num_buffers", 0)):
+            await self.socket.read_message()
+        if header["msgtype"] == "PATCH-DOC":
+            self._heed(content["events"])
+        return header["msgtype"], content
 
     def _heed(self, events):
         """Note what a change of the document says."""

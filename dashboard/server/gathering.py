@@ -8,7 +8,7 @@ from tornado.iostream import IOStream
 
 
 class GatheringStream(IOStream):
-    """Tornado's stream; once it gathers, what is written waits until the event loop finds it can be sent.
+    """Tornado's stream; once it gathers, what is written waits for its turn of the event loop.
 
     Attributes
     ----------

@@ -13,6 +13,7 @@ import sys
 import time
 from collections import deque
 from pathlib import Path
+from traceback import extract_tb
 from urllib.parse import urlsplit
 
 import tornado.web
@@ -39,6 +40,7 @@ from dashboard.server.command import PAGE
 from dashboard.server.gathering import GatheringStream
 
 DASHBOARD = Path(__file__).parent.parent
+LIBRARY = Path(tig.__file__).parent
 LOGIN = Path(__file__).parent / "templates" / "login.html"
 
 BEAT = 0.5
@@ -57,8 +59,11 @@ EXPECTED = ("PULL-DOC-REQ", "PATCH-DOC", "SERVER-INFO-REQ")
 MOST_FAULTS = 20
 """Messages that cannot be followed after which a connection is closed."""
 
-LONGEST_LOGGED = 500
+LONGEST_LOGGED = 200
 """Characters of a message that are logged."""
+
+HANDLERS, SOCKETS, BAD_HEADERS = "bokeh.server.protocol_handler", "bokeh.server.views.ws", "bokeh.protocol"
+"""Loggers that say what is wrong with a message."""
 
 
 class SocketHandler(WSHandler):
@@ -85,6 +90,11 @@ class SocketHandler(WSHandler):
         self.set_nodelay(True)
         return super().open()
 
+    async def on_message(self, fragment):
+        """Take what a page sends, but nothing after what it was cut off for."""
+        if self.ws_connection is not None and not self.ws_connection.is_closing():
+            await super().on_message(fragment)
+
     async def _handle(self, message):
         if message.msgtype not in EXPECTED:
             self._protocol_error(f"{message.msgtype[:40]} is nothing that a page sends")
@@ -107,15 +117,31 @@ class SocketHandler(WSHandler):
 
 
 def shorten(record):
-    """Cut what is logged of a message (a filter of log records)."""
-    if isinstance(record.args, tuple):
-        record.args = tuple(map(_short, record.args))
+    """Leave one short line of what is logged of a message from a page (a filter of log records).
+
+    Whoever sends what cannot be followed fills the log with tracebacks else. Errors of ours keep theirs.
+    """
+    error = record.exc_info[1] if record.exc_info else None
+    if is_ours(error):
+        return True
+    if record.name == BAD_HEADERS or (error is not None and record.name == SOCKETS):
+        # that the connection is closed, and why, is a line of its own
+        return False
+    text = record.getMessage() if error is None else f"a message was refused: {error!r}"
+    text = " ".join(text.split())
+    record.msg = text if len(text) <= LONGEST_LOGGED else f"{text[:LONGEST_LOGGED]}…"
+    record.args = record.exc_info = record.exc_text = None
     return True
 
 
-def _short(value):
-    text = repr(value)
-    return value if len(text) <= LONGEST_LOGGED else f"{text[:LONGEST_LOGGED]}…"
+def is_ours(error):
+    """Return whether an exception passed through code of the dashboard or its library."""
+    files = [] if error is None else [Path(frame.filename) for frame in extract_tb(error.__traceback__)]
+    return any(
+        each.is_relative_to(place) and not each.is_relative_to(DASHBOARD / "server")
+        for each in files
+        for place in (DASHBOARD, LIBRARY)
+    )
 
 
 class HealthHandler(tornado.web.RequestHandler):
@@ -176,7 +202,7 @@ def run(site, listeners, shares, number, secret, announce):
             }
         )
 
-    for name in ("bokeh.server.protocol_handler", "bokeh.server.views.ws"):
+    for name in (HANDLERS, SOCKETS, BAD_HEADERS):
         logging.getLogger(name).addFilter(shorten)
     loop = IOLoop.current()
     http, server = _server(site, secret, health, loop)
