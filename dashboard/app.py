@@ -20,6 +20,7 @@ from dashboard.client.browser import Browser
 from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.document import in_turns
+from dashboard.compute.feasibility import Feasibility
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
@@ -27,6 +28,7 @@ from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
+from dashboard.session.production import Production
 from dashboard.session.results import Outcome
 from dashboard.views.compare import Compare
 from dashboard.views.decide import Decide
@@ -85,6 +87,7 @@ def build(store=None, live_store=None):
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
     checker = VerificationRunner(outcome)
+    feasibility, production = Feasibility(inputs, definition, assessment), Production()
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
     browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
@@ -93,10 +96,10 @@ def build(store=None, live_store=None):
         snapshot.tab = Explore.link_name
 
     makers = {
-        Explore: partial(Explore, outcome, definition, pins, assessment),
+        Explore: partial(Explore, outcome, definition, pins, assessment, production),
         Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain),
         SpecificationView: partial(SpecificationView, assessment, exchange),
-        Decide: partial(Decide, inputs, definition, pins, assessment),
+        Decide: partial(Decide, snapshot, exchange, feasibility, production),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
         Track: partial(Track, inputs, outcome),
         Learn: partial(Learn, inputs, outcome, definition),
@@ -111,7 +114,7 @@ def build(store=None, live_store=None):
     in_turns(put(exchange, bar_place, bar), report_error)
     last = chain(put(exchange, status_place, status), notify_of_problems(problems))
     shown = tabs(snapshot, makers, exchange, last)
-    return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
+    return page([bar_place, Controls(inputs, outcome, feasibility)], status_place, shown, browser, exchange)
 
 
 def put(exchange, place, make):

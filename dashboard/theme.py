@@ -91,6 +91,7 @@ BAR_ALPHA = 0.8
 LINE_WIDTH = 3
 PINNED_LINE_WIDTH = 2.5
 LIMIT_LINE_WIDTH = 3
+HALO_WIDTH = 6
 THIN_LINE_WIDTH = 2
 FAILING_SIZE = "18px"
 NARROW_WINDOW = 1200
@@ -416,6 +417,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     font-variant-numeric: tabular-nums;
 }}
 .edge:hover {{ background: color-mix(in srgb, {COMPLIES} 25%, var(--panel-background-color)); }}
+.stale .stretches, .stale .edges {{ opacity: 0.35; transition: opacity 0.15s 0.25s; }}
 .box {{
     grid-area: 1 / 2 / span 2; display: flex; align-items: baseline; box-sizing: border-box; height: 34px;
     border: 1px solid var(--line); border-radius: 4px;

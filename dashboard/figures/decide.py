@@ -33,6 +33,8 @@ from dashboard.figures.axes import (
     show_one_two_five,
     zero_line,
 )
+from dashboard.figures.legends import Legend, legend_above, with_legend
+from dashboard.figures.swatches import mark_svg, swatch_svg
 
 DIVERGING = tuple(RdBu11[::-1])
 """Colours from less to more, white between them; told apart by colour-blind readers."""
@@ -164,8 +166,7 @@ class TornadoFigure:
                 hatch_color=colour,
                 legend_label=column,
             )
-        plot.add_layout(plot.legend[0], "above")
-        plot.legend.orientation = "horizontal"
+        legend_above(plot)
         plot.add_tools(
             HoverTool(tooltips=[("field", "@field"), ("less", "@less{+0.00}"), ("more", "@more{+0.00}")])
         )
@@ -239,8 +240,7 @@ class PercentileFigure:
                 **shared,
             )
         _draw_limit(plot, self.bands, legend_label="required maximum")
-        plot.add_layout(plot.legend[0], "above")
-        plot.legend.orientation = "horizontal"
+        legend_above(plot)
 
     def show(self, percentiles, stated, limit):
         """Draw insertion gain at 5, 50, 95 % of production (3, 21), as stated (21,), and the limit [dB]."""
@@ -261,11 +261,16 @@ class MapFigure:
     ----------
     model : bokeh.plotting.figure or None
         The figure; a new one for other fields, since an axis is logarithmic or it is not.
+    layout : bokeh.models.Column or None
+        The figure, and its legend below it.
+    legend : Legend
+        What is drawn on it, in words.
     """
 
     def __init__(self, on_tap):
         self._on_tap = on_tap
-        self.model = None
+        self.model = self.layout = None
+        self.legend = Legend("map_figure")
 
     def show(self, found, figure_name, words, designs, limits):
         """Draw a map anew.
@@ -311,28 +316,35 @@ class MapFigure:
         plot.add_tools(
             HoverTool(renderers=[image], tooltips=[("x", "$x"), ("y", "$y"), (words, "@image{0.00}")])
         )
+        listed = []
         for name, limit in limits.items():
             if limit is not None and name in found.figures:
-                self._draw_edge(plot, x, y, found.figures[name] - limit, *EDGES[name])
-        self._mark(plot, found, designs)
+                words, dash = EDGES[name]
+                self._draw_edge(plot, x, y, found.figures[name] - limit, dash)
+                listed.append((words, swatch_svg(theme.SPECIFICATION, dash)))
+        listed += self._mark(plot, found, designs)
+        self.legend = Legend("map_figure")
+        self.legend.show(listed)
+        self.layout = with_legend(plot, self.legend)
         plot.on_event(Tap, lambda event: self._on_tap(event.x, event.y))
 
-    def _draw_edge(self, plot, x, y, over, words, dash):
-        """Draw where a figure is at its limit."""
+    def _draw_edge(self, plot, x, y, over, dash):
+        """Draw where a figure is at its limit, on a lighter line: it crosses dark colours and light ones."""
         lines = contour_data(x, y, over, levels=[0.0], want_fill=False).line_data
+        plot.multi_line(xs=lines.xs, ys=lines.ys, line_color=theme.LIGHT_PAPER, line_width=theme.HALO_WIDTH)
         plot.multi_line(
             xs=lines.xs,
             ys=lines.ys,
             line_color=theme.SPECIFICATION,
-            line_dash=dash,
+            line_dash="dashed" if dash else "solid",
             line_width=theme.LIMIT_LINE_WIDTH,
-            legend_label=words,
         )
 
     def _mark(self, plot, found, designs):
+        """Mark designs at their places, and return what the legend says of them."""
+        listed = []
         for each in designs:
-            design = each.design
-            place = [getattr(design, name) for name in (found.x_field, found.y_field)]
+            place = [getattr(each.design, name) for name in (found.x_field, found.y_field)]
             if all(isinstance(value, float) for value in place):
                 plot.scatter(
                     x=[place[0] / FIELDS[found.x_field].factor],
@@ -340,16 +352,14 @@ class MapFigure:
                     size=14,
                     marker="circle" if each.key is None else "diamond",
                     fill_color=each.colour,
-                    line_color="white",
+                    line_color=theme.LIGHT_PAPER,
                     line_width=2,
-                    legend_label=each.name[: theme.LEGEND_NAME],
                 )
-        if plot.legend:
-            plot.add_layout(plot.legend[0], "above")
-            plot.legend.orientation = "horizontal"
+                listed.append((each.name, mark_svg(each.colour, diamond=each.key is not None)))
+        return listed
 
 
-EDGES = {"margin": ("just complies", "solid"), "deflection": ("sinks just as far as allowed", "dashed")}
+EDGES = {"margin": ("just complies", ()), "deflection": ("sinks just as far as allowed", theme.SECOND_DASH)}
 """What the edges of compliance are called, and their dashes, by the figure that is limited."""
 
 SCALES = {"deflection": 1e3}

@@ -7,6 +7,7 @@ import param
 
 import trackig_core as tig
 from dashboard.persistence import link, studies
+from dashboard.session.answers import Answers
 from dashboard.session.steps import Steps
 
 
@@ -30,6 +31,8 @@ class SessionSnapshot(param.Parameterized):
     ----------
     steps : Steps
         What of it can be undone.
+    answers : Answers
+        Questions that were asked, and what came out.
     """
 
     tab = param.Selector(objects=[""], doc="The tab that is open.")
@@ -38,6 +41,7 @@ class SessionSnapshot(param.Parameterized):
         super().__init__()
         self.inputs, self.definition, self.pins, self.assessment = inputs, definition, pins, assessment
         self.steps = Steps(inputs, definition, pins, assessment)
+        self.answers = Answers()
         self.param.tab.objects = list(tabs)
         self.tab = self.param.tab.objects[0]
 
@@ -47,6 +51,7 @@ class SessionSnapshot(param.Parameterized):
         self.definition.param.watch(callback, ["summation", "reference"])
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
         self.assessment.param.watch(callback, ["specification", "source", "title"])
+        self.answers.param.watch(callback, "kept")
         self.param.watch(callback, "tab")
 
     @property
@@ -74,6 +79,7 @@ class SessionSnapshot(param.Parameterized):
             self.assessment.specification,
             self.assessment.source,
             self.assessment.title,
+            self.answers.kept,
         )
 
     def follow(self, arguments):
@@ -118,6 +124,7 @@ class SessionSnapshot(param.Parameterized):
             self.assessment.param.update(
                 specification=opened.specification, source=opened.source, title=opened.name
             )
+        self.answers.replace_all(opened.answers)
 
     def _set(self, values, pins, base, view):
         self.pins.replace_all(pins, base)

@@ -37,6 +37,8 @@ class Opened:
         Levels on the reference track.
     name : str
         What the study is called.
+    answers : tuple of trackig_core.decide.Answer
+        Questions that were asked, and what came out.
     """
 
     values: dict
@@ -46,9 +48,19 @@ class Opened:
     specification: tig.Specification | None
     source: tig.SourceSpectrum | None
     name: str
+    answers: tuple[tig.decide.Answer, ...] = ()
 
 
-def to_study(values, view=None, pins=(), base=None, specification=None, source=None, name=tig.Study.name):
+def to_study(
+    values,
+    view=None,
+    pins=(),
+    base=None,
+    specification=None,
+    source=None,
+    name=tig.Study.name,
+    answers=(),
+):
     """Return a study of what the dashboard holds.
 
     Parameters
@@ -67,6 +79,8 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         Levels on the reference track.
     name : str
         What the study is called.
+    answers : iterable of trackig_core.decide.Answer
+        Questions that were asked, and what came out.
 
     Returns
     -------
@@ -88,6 +102,7 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         view=tig.View(**(view or {}), base=base),
         name=name,
         preset=values["preset"],
+        answers=answers,
     )
 
 
@@ -123,6 +138,7 @@ def from_study(study):
         specification=study.specification,
         source=study.source,
         name=study.name,
+        answers=study.answers,
     )
 
 

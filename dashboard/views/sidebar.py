@@ -25,9 +25,11 @@ class Controls(Viewer):
         What they change.
     outcome : Outcome
         Says when the picture of a change has been drawn.
+    feasibility : Feasibility, optional
+        Where the design complies along each slider; by default nothing is drawn on them.
     """
 
-    def __init__(self, inputs, outcome):
+    def __init__(self, inputs, outcome, feasibility=None):
         super().__init__()
         self._inputs, self._outcome = inputs, outcome
         self._number, self._due, self._taking = 0, False, False
@@ -37,6 +39,14 @@ class Controls(Viewer):
         inputs.param.watch(self._show, [*INPUTS, "modified", "refused"])
         outcome.param.watch(self._answer, ["summary", "busy", "progress", "problem", "compiling"])
         self._show()
+        self._feasibility = feasibility
+        if feasibility is not None:
+            feasibility.param.watch(self._show_feasible, ["result", "problem", "stale"])
+            self._show_feasible()
+
+    def _show_feasible(self, *_):
+        known = self._feasibility
+        self.quantities.param.update(feasible=known.stretches, stale=known.stale)
 
     def _take(self, number, given, gesture):
         self._number, self._due, self._taking = number, True, True

@@ -402,6 +402,7 @@ export function render({model}) {
     made.forEach((row) => rows.set(row.field?.name ?? "", row))
     return groupOf(group, made.map((row) => row.root))
   })
+  const panel = element("div", {className: "panel"}, ...groups)
 
   function show() {
     const state = model.state
@@ -409,16 +410,19 @@ export function render({model}) {
   }
   const quantities = () => [...rows.values()].filter((row) => row instanceof Quantity)
   const showStretches = () => quantities().forEach((row) => row.showStretches(model.feasible[row.field.name]))
+  const showStale = () => panel.classList.toggle("stale", Boolean(model.stale))
   const showChips = () => quantities().forEach((row) => row.showChip(model.chips[row.field.name]))
 
   model.on("state", show)
   model.on("feasible", showStretches)
+  model.on("stale", showStale)
   model.on("chips", showChips)
   model.on("msg:custom", (message) => {
     if (message.kind === "answered") flow.answer(message.number)
   })
   show()
   showStretches()
+  showStale()
   showChips()
-  return element("div", {className: "panel"}, ...groups)
+  return panel
 }
