@@ -139,6 +139,7 @@ ANSWER_CSS = """
     p { margin: 2px 0; font-size: 1.05rem; color: var(--panel-on-surface-color, inherit); }
     p.problem { color: #c2410c; font-weight: 600; }
     p.note { opacity: 0.75; }
+    h3 { margin: 4px 0 0 0; font-size: 15px; color: var(--panel-on-surface-color, inherit); }
 """
 """Answers that are read aloud."""
 
@@ -205,6 +206,14 @@ thead th:first-child, th[scope="row"] { background: var(--panel-surface-color); 
 .name { display: block; }
 .difference { display: block; font-size: 14px; font-weight: 400; opacity: 0.8; }
 """
+SHARES_CSS = f"""
+{TABLE_CSS}
+.bar {{ display: inline-block; height: 9px; margin-right: 6px; background: {THIS_DESIGN}; }}
+td {{ white-space: nowrap; }}
+p {{ margin: 6px 0; font-size: 14px; }}
+"""
+"""Tables of parts of a whole, each drawn as a bar."""
+
 PLAYER_CSS = """
 :host { font-family: var(--bokeh-base-font); font-size: 15px; color: var(--panel-on-background-color); }
 .bk-btn, select.bk-input { font-size: 15px; }

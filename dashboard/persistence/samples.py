@@ -74,7 +74,7 @@ def _field(header):
     """Return the field that a header names, or None."""
     words = " ".join(re.findall(r"[a-z]+", header.lower()))
     for name, field in FIELDS.items():
-        if words.startswith(field.label.lower()) or words.startswith(name.replace("_", " ")):
+        if words.startswith((field.label.lower(), name.replace("_", " "))):
             return name
     return None
 

@@ -91,8 +91,9 @@ class HowFar(Asked):
             if name in FIELDS
         )
         self.table.object = (
-            "<table><thead><tr><th>All others held</th><th>now</th><th>complies</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table>"
+            "<div class='scroll'><table>"
+            "<thead><tr><th>All others held</th><th>now</th><th>complies</th></tr></thead>"
+            f"<tbody>{rows}</tbody></table></div>"
         )
 
     def build(self):
@@ -200,7 +201,7 @@ class WhatScatters(Asked):
     def __init__(self, snapshot, exchange, how_sure):
         super().__init__(snapshot, exchange)
         self._how_sure = how_sure
-        self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
+        self.table = pn.pane.HTML("", stylesheets=[theme.SHARES_CSS], sizing_mode="stretch_width", margin=0)
         self.button.label = "Over the tolerances"
 
     def settings(self):
@@ -368,12 +369,12 @@ class HowSure(Asked):
             for name, share in result.tightened.items()
         )
         self.table.object = (
-            f"<p>Governing margin of nine in ten: {formats.signed_text(low)} to "
+            f"<div class='scroll'><p>Governing margin of nine in ten: {formats.signed_text(low)} to "
             f"{formats.signed_text(high)} dB. "
             f"Worst corner of all tolerances: {formats.signed_text(result.worst_margin)} dB. "
             f"{result.samples} samples, seed {result.seed}.</p>"
-            "<table><thead><tr><th>With half the scatter of</th><th>complies</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table>"
+            "<table><thead><tr><th>Half the scatter of</th><th>complies</th></tr></thead>"
+            f"<tbody>{rows}</tbody></table></div>"
         )
 
     def build(self):
@@ -526,14 +527,13 @@ class Search(Asked):
             margin=(0, 12, 0, 0),
         )
         self.deflection = pmui.FloatInput(
-            label="Rail sinks at most, mm",
-            value=None,
-            start=0.01,
+            label="Rail sinks at most, mm (0: as specified)",
+            value=0.0,
+            start=0.0,
             end=100.0,
             step=0.1,
-            placeholder="as specified",
             size="small",
-            width=190,
+            width=290,
             **BOX,
         )
         self.seed = pmui.IntInput(label="Seed", value=0, start=0, size="small", width=110, **BOX)
@@ -747,7 +747,7 @@ CATALOGUED = {
 
 
 def catalogued(kind, design):
-    """Return what a search may choose from the catalogue for a design: plain values, as a question takes them.
+    """Return what a search may choose from the catalogue: plain values, as a question takes them.
 
     Parameters
     ----------
