@@ -24,7 +24,7 @@ def read_samples(text):
     ----------
     text : str
         A table as it was pasted: a row each specimen, above the columns what they hold, such as
-        ``boot stiffness, kN/mm``.
+        ``boot stiffness [kN/mm]``.
 
     Returns
     -------
@@ -47,13 +47,19 @@ def read_samples(text):
                 notes.append(f"{column.words} is not read")
                 continue
             unit = FIELDS[name].unit
+            if unit and column.unit is None and not all(cell.unit for cell in column.cells):
+                # a stiffness in another unit than is assumed would be wrong by a thousand, and look sound
+                raise SamplesError(
+                    f"{FIELDS[name].label} has no unit: head its column “{FIELDS[name].label} [{unit}]”."
+                )
             values = column.values_in(unit) if unit else column.values
             found[name] = _checked(values * FIELDS[name].factor, column)
     except TableError as error:
         raise SamplesError(f"Not read: {error}.") from None
     if not found:
         raise SamplesError(
-            f"No column is a number of a design: head each by one of {', '.join(_labels())}, with its unit."
+            f"No column is a number of a design: head each by one of {', '.join(_labels())}, with its unit "
+            "in brackets."
         )
     return found, tuple(notes)
 

@@ -129,7 +129,7 @@ class Asked:
             await self._worked(self.export, partial(written_answer, heading), self._save)
 
     async def _worked(self, pressed, work, then):
-        """Do work on the answer off the event loop, a button at work meanwhile, and go on with what it made."""
+        """Do work on the answer off the event loop, a button at work meanwhile, and go on with it."""
         question, result = self.inquiry.answered, self.inquiry.result
         if question is None or result is None:
             return

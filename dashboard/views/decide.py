@@ -294,7 +294,7 @@ class HowSure(Asked):
         )
         self.pasted = pmui.TextAreaInput(
             label="Measured specimens, one a row (paste from a spreadsheet, with headers)",
-            placeholder="boot stiffness, kN/mm; boot loss factor",
+            placeholder="boot stiffness [kN/mm]; boot loss factor",
             rows=2,
             max_rows=6,
             size="small",
