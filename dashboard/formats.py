@@ -26,6 +26,7 @@ SUMMATIONS = {
 REFERENCES = {
     "line": "relative to the straight line through the track's own spectrum, as in the paper",
     "rigid": "relative to the exact rigid track",
+    "stiff": "relative to a very stiff track on the same ground, under the same vehicle",
 }
 """How each kind of insertion gain is named in what leaves the page."""
 

@@ -34,7 +34,7 @@ from dashboard.figures.axes import (
     zero_line,
 )
 from dashboard.figures.legends import Legend, legend_above, with_legend
-from dashboard.figures.swatches import mark_svg, swatch_svg
+from dashboard.figures.swatches import marker_svg, swatch_svg
 
 DIVERGING = tuple(RdBu11[::-1])
 """Colours from less to more, white between them; told apart by colour-blind readers."""
@@ -263,16 +263,15 @@ class MapFigure:
     ----------
     model : bokeh.plotting.figure or None
         The figure; a new one for other fields, since an axis is logarithmic or it is not.
+    legend : Legend or None
+        What is drawn, in words.
     layout : bokeh.models.Column or None
         The figure, and its legend below it.
-    legend : Legend
-        What is drawn on it, in words.
     """
 
     def __init__(self, on_tap):
         self._on_tap = on_tap
-        self.model = self.layout = None
-        self.legend = Legend("map_figure")
+        self.model = self.legend = self.layout = None
 
     def show(self, found, figure_name, words, designs, limits):
         """Draw a map anew.
@@ -318,47 +317,45 @@ class MapFigure:
         plot.add_tools(
             HoverTool(renderers=[image], tooltips=[("x", "$x"), ("y", "$y"), (words, "@image{0.00}")])
         )
-        listed = []
+        entries = []
         for name, limit in limits.items():
             if limit is not None and name in found.figures:
-                words, dash = EDGES[name]
-                self._draw_edge(plot, x, y, found.figures[name] - limit, dash)
-                listed.append((words, swatch_svg(theme.SPECIFICATION, dash)))
-        listed += self._mark(plot, found, designs)
+                entries.append(_draw_edge(plot, x, y, found.figures[name] - limit, *EDGES[name]))
         self.legend = Legend("map_figure")
-        self.legend.show(listed)
+        self.legend.show([*entries, *_mark(plot, found, designs)])
         self.layout = with_legend(plot, self.legend)
         plot.on_event(Tap, lambda event: self._on_tap(event.x, event.y))
 
-    def _draw_edge(self, plot, x, y, over, dash):
-        """Draw where a figure is at its limit, on a lighter line: it crosses dark colours and light ones."""
-        lines = contour_data(x, y, over, levels=[0.0], want_fill=False).line_data
-        plot.multi_line(xs=lines.xs, ys=lines.ys, line_color=theme.LIGHT_PAPER, line_width=theme.HALO_WIDTH)
-        plot.multi_line(
-            xs=lines.xs,
-            ys=lines.ys,
-            line_color=theme.SPECIFICATION,
-            line_dash="dashed" if dash else "solid",
-            line_width=theme.LIMIT_LINE_WIDTH,
-        )
 
-    def _mark(self, plot, found, designs):
-        """Mark designs at their places, and return what the legend says of them."""
-        listed = []
-        for each in designs:
-            place = [getattr(each.design, name) for name in (found.x_field, found.y_field)]
-            if all(isinstance(value, float) for value in place):
-                plot.scatter(
-                    x=[place[0] / FIELDS[found.x_field].factor],
-                    y=[place[1] / FIELDS[found.y_field].factor],
-                    size=14,
-                    marker="circle" if each.key is None else "diamond",
-                    fill_color=each.colour,
-                    line_color=theme.LIGHT_PAPER,
-                    line_width=2,
-                )
-                listed.append((each.name, mark_svg(each.colour, diamond=each.key is not None)))
-        return listed
+def _draw_edge(plot, x, y, over, words, dash):
+    """Draw where a figure is at its limit; return what the legend says of it."""
+    lines = contour_data(x, y, over, levels=[0.0], want_fill=False).line_data
+    edge = plot.multi_line(
+        xs=lines.xs, ys=lines.ys, line_color=theme.SPECIFICATION, line_width=theme.LIMIT_LINE_WIDTH
+    )
+    edge.glyph.line_dash = list(dash)
+    return words, swatch_svg(theme.SPECIFICATION, dash)
+
+
+def _mark(plot, found, designs):
+    """Mark where designs lie; return what the legend says of them."""
+    entries = []
+    for each in designs:
+        place = [getattr(each.design, name) for name in (found.x_field, found.y_field)]
+        if not all(isinstance(value, float) for value in place):
+            continue  # a measured curve or a missing block has no place on the map
+        marker = "circle" if each.key is None else "diamond"
+        plot.scatter(
+            x=[place[0] / FIELDS[found.x_field].factor],
+            y=[place[1] / FIELDS[found.y_field].factor],
+            size=14,
+            marker=marker,
+            fill_color=each.colour,
+            line_color="white",
+            line_width=2,
+        )
+        entries.append((each.name, marker_svg(each.colour, marker)))
+    return entries
 
 
 EDGES = {"margin": ("just complies", ()), "deflection": ("sinks just as far as allowed", theme.SECOND_DASH)}

@@ -28,10 +28,10 @@ def swatch_svg(colour, dash=(), *, dot=False):
     return _drawing(line + (f'<circle cx="17" cy="6" r="5.5" fill="{colour}"/>' if dot else ""))
 
 
-def mark_svg(colour, *, diamond=False):
-    """Return the mark of a design on a map: a dot for the current one, a diamond for one that is pinned."""
-    shape = "M17 0L23 6L17 12L11 6Z" if diamond else "M11.5 6A5.5 5.5 0 1 0 22.5 6A5.5 5.5 0 1 0 11.5 6Z"
-    return _drawing(f'<path d="{shape}" fill="{colour}"/>')
+def marker_svg(colour, marker):
+    """Return a design's marker, ``"circle"`` or ``"diamond"``, as a map has it."""
+    shape = {"circle": '<circle cx="17" cy="6" r="5"', "diamond": '<path d="M17 0L21 6L17 12L13 6Z"'}[marker]
+    return _drawing(f'{shape} fill="{colour}"/>')
 
 
 def limit_svg():

@@ -9,6 +9,7 @@ from trackig_core.analysis.damping import (
     with_loss_factor,
 )
 from trackig_core.analysis.frequency_sweep import Departure, FrequencySweep, departure, frequency_sweep
+from trackig_core.analysis.ladder import Ladder, Rung, ladder
 from trackig_core.analysis.lumped import (
     GOOD_ENOUGH,
     LumpedComparison,
@@ -50,12 +51,14 @@ __all__ = [
     "DampingCurve",
     "Departure",
     "FrequencySweep",
+    "Ladder",
     "Lattice",
     "LumpedComparison",
     "LumpedFrequencies",
     "MeasuredSlope",
     "Motion",
     "PeerReceptance",
+    "Rung",
     "StaticResponse",
     "SteadyShape",
     "StiffReferences",
@@ -71,6 +74,7 @@ __all__ = [
     "frequency_sweep",
     "gain_asymptotes",
     "gain_by_loss_factor",
+    "ladder",
     "limited_deflection",
     "lumped_frequencies",
     "lumped_insertion_gain",

@@ -37,7 +37,7 @@ class View:
     summation : str
         ``"energy"`` or ``"coherent"``.
     reference : str
-        ``"line"`` or ``"rigid"``.
+        ``"line"``, ``"rigid"`` or ``"stiff"``.
     base : int or None
         Number, from 0, of the pinned design from which differences are taken; None: from the current design.
 

@@ -27,10 +27,20 @@ from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.study.records import PinnedDesign, StudyError, View
-from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
-from trackig_core.track.fields import DESIGN_FIELDS, RAIL_FIELDS, STATIC_FIELDS, DesignError
+from trackig_core.track.design import ONE_AXLE, REFERENCE_FREQUENCY, TrackDesign
+from trackig_core.track.fields import (
+    AXLE_FIELDS,
+    DESIGN_FIELDS,
+    GROUND_FIELDS,
+    RAIL_FIELDS,
+    STATIC_FIELDS,
+    SUSPENSION_FIELDS,
+    DesignError,
+)
+from trackig_core.track.ground import Ground
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
 from trackig_core.track.rails import Rail
+from trackig_core.track.vehicle import Suspension
 
 if TYPE_CHECKING:
     from trackig_core.study.studies import Study
@@ -64,6 +74,15 @@ _OPTIONAL = {"stiffness_frequency": REFERENCE_FREQUENCY}
 
 _RAIL_KEYS = {"name": "name"} | {each.name: each.key for each in RAIL_FIELDS}
 """Key of the name and of each number of a rail."""
+
+_AXLE_KEYS = dict(zip(("axle_positions", "speed"), (each.key for each in AXLE_FIELDS), strict=True))
+"""Key of the axles' positions and of the speed."""
+
+_PARTS: dict[str, tuple[type[Suspension] | type[Ground], dict[str, str]]] = {
+    "suspension": (Suspension, {each.name: each.key for each in SUSPENSION_FIELDS}),
+    "ground": (Ground, {each.name: each.key for each in GROUND_FIELDS}),
+}
+"""Class of what a design may stand under and on, and the key of each of its numbers."""
 
 _LIMIT_KEYS = {each.name: each.key for each in STATIC_FIELDS}
 """Key of the limit of rail deflection, and of the load under which it holds."""
@@ -328,9 +347,24 @@ def _design(section: _Section) -> TrackDesign:
     rail_section = section.section("rail")
     rail_values = {name: rail_section.need(key) for name, key in _RAIL_KEYS.items()}
     rail_section.close()
+    around = {name: section.take(key) for name, key in _AXLE_KEYS.items()}
+    around |= {name: _part(section, name, *kind) for name, kind in _PARTS.items()}
     section.close()
     rail = _made(Rail, rail_values, _RAIL_KEYS, rail_section)
-    return _made(TrackDesign, {**values, "rail": rail}, _DESIGN_KEYS, section)
+    given = {name: value for name, value in around.items() if value is not None}
+    return _made(TrackDesign, {**values, **given, "rail": rail}, _DESIGN_KEYS | _AXLE_KEYS, section)
+
+
+def _part(
+    design: _Section, name: str, kind: type[Suspension] | type[Ground], keys: Mapping[str, str]
+) -> Suspension | Ground | None:
+    """Return a design's suspension or ground, or None if there is none."""
+    if design.take(name) is None:
+        return None
+    section = design.section(name)
+    values = {field: section.take(key) for field, key in keys.items()}
+    section.close()
+    return _made(lambda **numbers: kind(*numbers.values()), values, keys, section)
 
 
 def _made(
@@ -448,8 +482,28 @@ def _written_design(design: TrackDesign) -> Table:
     for name, key in _RAIL_KEYS.items():
         value = getattr(design.rail, name)
         rail.add(key, value if name == "name" else _number(value))
+    _write_axles(table, design)
     table.add("rail", rail)
+    for name, (kind, keys) in _PARTS.items():
+        part = getattr(design, name)
+        if part is not None:
+            numbers = zip(keys.values(), (getattr(part, each.name) for each in fields(kind)), strict=True)
+            section = tomlkit.table()
+            for key, value in numbers:
+                if value is not None:
+                    section.add(key, _number(value))
+            table.add(name, section)
     return table
+
+
+def _write_axles(table: Table, design: TrackDesign) -> None:
+    """Write the axles' positions and the speed, if they are not those of one wheel over a support."""
+    if design.axle_positions != ONE_AXLE:
+        positions = tomlkit.array()
+        positions.extend(_number(each) for each in design.axle_positions)
+        table.add(_AXLE_KEYS["axle_positions"], positions)
+    if design.speed is not None:
+        table.add(_AXLE_KEYS["speed"], _number(design.speed))
 
 
 def _written_table(levels: BandTable, key: str) -> Table:
