@@ -20,6 +20,7 @@ from dashboard.client.browser import Browser
 from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.document import in_turns
+from dashboard.compute.feasibility import Feasibility
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.responses import TrackResponses
 from dashboard.compute.runner import Runner
@@ -29,6 +30,7 @@ from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.measuring import Measuring
 from dashboard.session.pins import Pins
+from dashboard.session.production import Production
 from dashboard.session.results import Outcome
 from dashboard.session.shelf import Shelf
 from dashboard.views.compare import Compare
@@ -90,6 +92,7 @@ def build(store=None, live_store=None):
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
     checker = VerificationRunner(outcome)
+    feasibility, production = Feasibility(inputs, definition, assessment), Production()
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
     measuring, shelf = Measuring(), Shelf()
@@ -110,10 +113,10 @@ def build(store=None, live_store=None):
         return Track(inputs, outcome, measuring, shelf, exchange, response, responses.look)
 
     makers = {
-        Explore: partial(Explore, outcome, definition, pins, assessment),
+        Explore: partial(Explore, outcome, definition, pins, assessment, production),
         Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain, exchange),
         SpecificationView: partial(SpecificationView, assessment, exchange),
-        Decide: partial(Decide, inputs, definition, pins, assessment),
+        Decide: partial(Decide, snapshot, exchange, feasibility, production),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
         Track: show_track,
         Learn: partial(Learn, inputs, outcome, definition),
@@ -128,9 +131,8 @@ def build(store=None, live_store=None):
     in_turns(put(exchange, bar_place, bar), report_error)
     last = chain(put(exchange, status_place, status), notify_of_problems(problems))
     shown = tabs(snapshot, makers, exchange, last)
-    return page(
-        [bar_place, Controls(inputs, outcome, shelf, edit_curve)], status_place, shown, browser, exchange
-    )
+    controls = Controls(inputs, outcome, shelf, edit_curve, feasibility)
+    return page([bar_place, controls], status_place, shown, browser, exchange)
 
 
 def put(exchange, place, make):

@@ -141,6 +141,7 @@ ANSWER_CSS = """
     p { margin: 2px 0; font-size: 1.05rem; color: var(--panel-on-surface-color, inherit); }
     p.problem { color: #c2410c; font-weight: 600; }
     p.note { opacity: 0.75; }
+    h3 { margin: 4px 0 0 0; font-size: 15px; color: var(--panel-on-surface-color, inherit); }
 """
 """Answers that are read aloud."""
 
@@ -207,6 +208,14 @@ thead th:first-child, th[scope="row"] { background: var(--panel-surface-color); 
 .name { display: block; }
 .difference { display: block; font-size: 14px; font-weight: 400; opacity: 0.8; }
 """
+SHARES_CSS = f"""
+{TABLE_CSS}
+.bar {{ display: inline-block; height: 9px; margin-right: 6px; background: {THIS_DESIGN}; }}
+td {{ white-space: nowrap; }}
+p {{ margin: 6px 0; font-size: 14px; }}
+"""
+"""Tables of parts of a whole, each drawn as a bar."""
+
 PLAYER_CSS = """
 :host { font-family: var(--bokeh-base-font); font-size: 15px; color: var(--panel-on-background-color); }
 .bk-btn, select.bk-input { font-size: 15px; }
@@ -423,6 +432,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     font-variant-numeric: tabular-nums;
 }}
 .edge:hover {{ background: color-mix(in srgb, {COMPLIES} 25%, var(--panel-background-color)); }}
+.stale .stretches, .stale .edges {{ opacity: 0.35; transition: opacity 0.15s 0.25s; }}
 .box {{
     grid-area: 1 / 2 / span 2; display: flex; align-items: baseline; box-sizing: border-box; height: 34px;
     border: 1px solid var(--line); border-radius: 4px;

@@ -52,6 +52,7 @@ class Quantities(Scripted):
         doc="Stretches (low, high) of a slider, by name, in which the design complies [display units]; an "
         "empty list: nowhere; no entry: nothing is drawn.",
     )
+    stale = param.Boolean(default=False, doc="Whether the stretches are those of an earlier design.")
     chips = param.Dict(default={}, doc="Words of a button that stands in a slider's place, by name.")
     catalogue = param.Dict(default={}, doc="Names that a group may be set from, by kind of component.")
 

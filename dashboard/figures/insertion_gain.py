@@ -17,6 +17,7 @@ from bokeh.models import (
     Segment,
     Span,
     Text,
+    VArea,
 )
 
 import trackig_core as tig
@@ -124,6 +125,9 @@ class InsertionGainFigure:
     measured : bokeh.models.ColumnDataSource
         Named ``measured``: per band its ``centre`` [Hz] and levels ``curve_0`` to ``curve_3`` from elsewhere
         [dB], NaN where there is none.
+    production : bokeh.models.ColumnDataSource
+        Named ``production``: per band its ``centre`` [Hz], and the ``low`` and ``high`` end of insertion gain
+        of nine in ten of production [dB]; empty when there is none.
     """
 
     def __init__(self):
@@ -132,8 +136,9 @@ class InsertionGainFigure:
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
         self.extrapolated = ColumnDataSource(name="extrapolated", data={"left": [], "right": []})
         self.measured = ColumnDataSource(name="measured", data=_measured_columns(()))
+        self.production = ColumnDataSource(name="production", data=NO_PRODUCTION)
         self._measured, self._points = (), []
-        self._drawn, self._limited, self._limit_drawn = (), False, False
+        self._drawn, self._limited, self._limit_drawn, self._production_drawn = (), False, False, False
         self._beyond, self._beyond_drawn = (), False
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
@@ -246,11 +251,27 @@ class InsertionGainFigure:
         self.model.renderers.insert(0, GlyphRenderer(data_source=self.extrapolated, glyph=hatching))
         self._beyond_drawn = True
 
+    def _draw_production(self):
+        """Draw the range of production behind all else; a figure pays at every frame for what it has."""
+        area = VArea(
+            x="centre",
+            y1="low",
+            y2="high",
+            fill_color=theme.THIS_DESIGN,
+            fill_alpha=theme.FILL_ALPHA,
+            hatch_pattern="dot",
+            hatch_color=theme.THIS_DESIGN,
+            hatch_alpha=theme.BAR_ALPHA,
+            hatch_scale=6,
+        )
+        self.model.renderers.insert(0, GlyphRenderer(data_source=self.production, glyph=area))
+        self._production_drawn = True
+
     def name_axis(self, words):
         """Say on the axis which insertion gain is drawn."""
         self.model.yaxis.axis_label = words
 
-    def show(self, current, pinned=(), preset=None, limit=None, alone=False, measured=()):
+    def show(self, current, pinned=(), preset=None, limit=None, alone=False, measured=(), production=None):
         """Draw insertion gain, and behind it that of the preset it departs from and of pinned designs.
 
         Parameters
@@ -268,12 +289,15 @@ class InsertionGainFigure:
             Whether the pinned designs stand alone: then of the current design nothing is drawn.
         measured : tuple of trackig_core.levels.MeasuredGain
             Up to four curves from elsewhere, drawn as points.
+        production : numpy.ndarray (2, 21) or None
+            Insertion gain below which 5 and 95 % of production lie [dB].
         """
         levels, natural = current.levels, current.summary.solution.natural_frequencies
         preset = NO_LEVELS if preset is None or alone else preset.levels
         self.bands.data = _band_columns(levels, preset)
         self._show_limit(limit, NO_LEVELS if alone else levels)
         self._show_extrapolated(() if alone else current.summary.solution.extrapolated_bands)
+        self._show_production(None if alone else production)
         for part in (self._fill, self._line, self._dots):
             part.visible = not alone
         self._loaded_track.show(None if alone else natural.loaded_track)
@@ -286,6 +310,8 @@ class InsertionGainFigure:
             NO_LEVELS if alone else levels,
             preset,
             self.limit.data["limit"],
+            self.production.data["low"],
+            self.production.data["high"],
             *(each.levels for each in (*pinned, *measured)),
             LEAST_LEVELS,
         ]
@@ -299,6 +325,17 @@ class InsertionGainFigure:
             self._draw_limit()
         self._limited = limit is not None
         self.limit.data = _limit_columns(NO_LEVELS if limit is None else limit, levels)
+
+    def _show_production(self, production):
+        if production is None and not len(self.production.data["low"]):
+            return
+        if production is not None and not self._production_drawn:
+            self._draw_production()
+        self.production.data = (
+            NO_PRODUCTION
+            if production is None
+            else {"centre": tig.BAND_CENTRES, "low": production[0], "high": production[1]}
+        )
 
     def _show_pinned(self, pinned):
         if are_the_same(pinned, self._drawn):
@@ -341,6 +378,7 @@ class InsertionGainFigure:
         drawn = [
             (self._line.visible, THIS_DESIGN),
             (np.isfinite(data["preset"]).any(), AS_IN_TABLE_1),
+            (len(self.production.data["low"]) > 0, PRODUCTION),
             (np.isfinite(limit["limit"]).any(), REQUIRED),
             (np.isfinite(limit["failing"]).any(), EXCEEDS),
             (bool(self._beyond), EXTRAPOLATED),
@@ -357,6 +395,7 @@ class InsertionGainFigure:
 
 THIS_DESIGN = ("this design", swatch_svg(theme.THIS_DESIGN, dot=True))
 AS_IN_TABLE_1 = ("as in Table 1", swatch_svg(theme.PRESET_GHOST, theme.SECOND_DASH))
+PRODUCTION = ("5 to 95 % of production", swatch_svg(theme.THIS_DESIGN, (2, 2)))
 REQUIRED, EXCEEDS = ("required maximum", limit_svg()), ("exceeds it", excess_svg())
 EXTRAPOLATED = ("beyond what was measured of this design", extrapolated_svg())
 """What the legend says beside the names of pinned designs."""
@@ -373,6 +412,8 @@ MEASURED_MARKERS = tuple(MARKERS)
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
 
 NO_LEVELS.flags.writeable = False
+
+NO_PRODUCTION = {"centre": [], "low": [], "high": []}
 
 ALONE_TOOLTIPS = [("band", "@label Hz")]
 

@@ -6,6 +6,7 @@ the ground: kN over time [s], which is held once. Comma-separated, decimal point
 
 import csv
 import io
+import json
 import re
 
 import numpy as np
@@ -82,6 +83,37 @@ def force_csv(results, heading):
         columns += [[_figures(force) for force in row] for row in forces]
     remarks = [f"interpolated to the times of the longest record: {name}" for name in interpolated]
     return _written([*heading.lines, FORCE_REMARK, *remarks], header, zip(*columns, strict=True))
+
+
+def answer_csv(answer, result, heading):
+    """Return all figures of an answer as CSV.
+
+    Parameters
+    ----------
+    answer : trackig_core.decide.Answer
+        The answer.
+    result : object
+        What it was made of: anything with ``to_dataframe``.
+    heading : Heading
+        What the file says of itself; its design is that of the question.
+
+    Returns
+    -------
+    str
+        Columns as the library names them, in SI units, below the question, its answer in a sentence, and what
+        is needed to obtain it again: every setting, versions, and the digest of all figures.
+    """
+    question = answer.question
+    remarks = [
+        *heading.lines,
+        f"question: {question.kind}, {json.dumps(question.settings)}",
+        f"asked of: {question.design!r}",
+        f"answer: {answer.sentence}",
+        f"versions: {', '.join(' '.join(each) for each in answer.versions.items())}",
+        f"digest: {answer.digest}",
+    ]
+    table = result.to_dataframe()
+    return _written(remarks, table.columns, table.itertuples(index=False, name=None))
 
 
 def point_response_csv(responses, heading):

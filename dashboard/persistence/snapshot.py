@@ -8,6 +8,7 @@ import param
 import trackig_core as tig
 from dashboard.fields import INPUTS
 from dashboard.persistence import link, studies
+from dashboard.session.answers import Answers
 from dashboard.session.steps import Steps
 
 
@@ -31,6 +32,8 @@ class SessionSnapshot(param.Parameterized):
     ----------
     steps : Steps
         What of it can be undone.
+    answers : Answers
+        Questions that were asked, and what came out.
     """
 
     tab = param.Selector(objects=[""], doc="The tab that is open.")
@@ -39,6 +42,7 @@ class SessionSnapshot(param.Parameterized):
         super().__init__()
         self.inputs, self.definition, self.pins, self.assessment = inputs, definition, pins, assessment
         self.steps = Steps(inputs, definition, pins, assessment)
+        self.answers = Answers()
         self.param.tab.objects = list(tabs)
         self.tab = self.param.tab.objects[0]
 
@@ -48,6 +52,7 @@ class SessionSnapshot(param.Parameterized):
         self.definition.param.watch(callback, ["summation", "reference"])
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
         self.assessment.param.watch(callback, ["specification", "source", "measured", "title"])
+        self.answers.param.watch(callback, "kept")
         self.param.watch(callback, "tab")
 
     @property
@@ -81,6 +86,7 @@ class SessionSnapshot(param.Parameterized):
             self.assessment.source,
             self.assessment.title,
             self.assessment.measured,
+            self.answers.kept,
         )
 
     def follow(self, arguments):
@@ -128,6 +134,7 @@ class SessionSnapshot(param.Parameterized):
                 measured=opened.measured,
                 title=opened.name,
             )
+        self.answers.replace_all(opened.answers)
 
     def _set(self, values, pins, base, view):
         self.pins.replace_all(pins, base)

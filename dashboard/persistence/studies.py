@@ -37,6 +37,8 @@ class Opened:
         What the study is called.
     measured : tuple of trackig_core.levels.MeasuredGain
         Insertion gain from elsewhere.
+    answers : tuple of trackig_core.decide.Answer
+        Questions that were asked, and what came out.
     """
 
     values: dict
@@ -47,6 +49,7 @@ class Opened:
     source: tig.SourceSpectrum | None
     name: str
     measured: tuple[tig.levels.MeasuredGain, ...] = ()
+    answers: tuple[tig.decide.Answer, ...] = ()
 
 
 def to_study(
@@ -58,6 +61,7 @@ def to_study(
     source=None,
     name=tig.Study.name,
     measured=(),
+    answers=(),
 ):
     """Return a study of what the dashboard holds.
 
@@ -79,6 +83,8 @@ def to_study(
         What the study is called.
     measured : iterable of trackig_core.levels.MeasuredGain
         Insertion gain from elsewhere.
+    answers : iterable of trackig_core.decide.Answer
+        Questions that were asked, and what came out.
 
     Returns
     -------
@@ -102,6 +108,7 @@ def to_study(
         preset=values["preset"],
         load=load_of(values),
         measured=measured,
+        answers=answers,
     )
 
 
@@ -137,6 +144,7 @@ def from_study(study):
         source=study.source,
         name=study.name,
         measured=study.measured,
+        answers=study.answers,
     )
 
 

@@ -15,6 +15,7 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, LOAD
 from dashboard.report import plots
+from dashboard.report.answer_pages import question_lines
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
 from dashboard.session.results import DesignResult
 from dashboard.session.special import input_text
@@ -40,7 +41,7 @@ TEMPLATES = jinja2.Environment(
 """Templates of what is printed; whatever they show is escaped."""
 
 
-def html_report(study, summaries, *, date, version):
+def html_report(study, summaries, *, date, version, pages=None):
     """Return a report of a study.
 
     Parameters
@@ -53,6 +54,8 @@ def html_report(study, summaries, *, date, version):
         The day of the report.
     version : str
         Version of the software.
+    pages : mapping of str to AnswerPage, optional
+        What is shown of the study's answers by their digests; of others there are words alone.
 
     Returns
     -------
@@ -94,6 +97,7 @@ def html_report(study, summaries, *, date, version):
         sources=_sources(results, base, study.source),
         fidelities=formats.fidelities_text(each.summary.solution.fidelity for each in results),
         notes=[(each.name, each.summary.solution.notes) for each in results if each.summary.solution.notes],
+        answers=[(each, *question_lines(each), (pages or {}).get(each.digest)) for each in study.answers],
         file=study.to_toml(),
         theme=theme,
     )

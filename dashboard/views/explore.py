@@ -10,6 +10,7 @@ from dashboard import theme
 from dashboard.compute.document import NextTick
 from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
+from dashboard.session.production import Production
 from dashboard.views.components import bokeh_pane, caption, gain_axis, panel
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.tab import Tab
@@ -29,14 +30,17 @@ class Explore(Tab):
         Whether the pinned designs are drawn alone.
     assessment : Assessment
         Results that are drawn, and the specification, which is drawn as a limit.
+    production : Production, optional
+        Insertion gain of production, which is drawn on request.
     """
 
     title = "Explore"
     link_name = "explore"
 
-    def __init__(self, outcome, definition, pins, assessment):
+    def __init__(self, outcome, definition, pins, assessment, production=None):
         super().__init__()
         self._outcome, self._definition = outcome, definition
+        self._production = Production() if production is None else production
         self._pins, self._assessment = pins, assessment
         self._drawn = None
         self.insertion_gain = InsertionGainFigure()
@@ -67,6 +71,7 @@ class Explore(Tab):
         # results follow the definition and the specification too
         assessment.param.watch(show, ["results", "preset", "measured"])
         pins.param.watch(show, "alone")
+        self._production.param.watch(show, ["wanted", "computed"])
         self._show()
         self._dim()
 
@@ -96,6 +101,7 @@ class Explore(Tab):
             limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
             measured=self._assessment.measured,
+            production=self._production.band(self._assessment.current.design, self._definition),
         )
 
     def _dim(self, *_):

@@ -38,9 +38,11 @@ class Controls(Viewer):
         The catalogue from which components are chosen.
     on_curve : callable, optional
         Called with the name of an input whose curve is to be looked at.
+    feasibility : Feasibility, optional
+        Where the design complies along each slider; by default nothing is drawn on them.
     """
 
-    def __init__(self, inputs, outcome, shelf, on_curve=None):
+    def __init__(self, inputs, outcome, shelf, on_curve=None, feasibility=None):
         super().__init__()
         self._inputs, self._outcome, self._shelf = inputs, outcome, shelf
         self._number, self._due, self._taking = 0, False, False
@@ -54,6 +56,14 @@ class Controls(Viewer):
         shelf.param.watch(self._offer, "catalogue")
         self._offer()
         self._show()
+        self._feasibility = feasibility
+        if feasibility is not None:
+            feasibility.param.watch(self._show_feasible, ["result", "problem", "stale"])
+            self._show_feasible()
+
+    def _show_feasible(self, *_):
+        known = self._feasibility
+        self.quantities.param.update(feasible=known.stretches, stale=known.stale)
 
     def _offer(self, *_):
         catalogue = self._shelf.catalogue

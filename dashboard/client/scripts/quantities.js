@@ -449,6 +449,7 @@ export function render({model}) {
     if (pick !== undefined) picks.push(pick)
     return groupOf(group, made.map((row) => row.root), pick)
   })
+  const panel = element("div", {className: "panel"}, ...groups)
 
   function show() {
     const state = model.state
@@ -456,11 +457,13 @@ export function render({model}) {
   }
   const quantities = () => [...rows.values()].filter((row) => row instanceof Quantity)
   const showStretches = () => quantities().forEach((row) => row.showStretches(model.feasible[row.field.name]))
+  const showStale = () => panel.classList.toggle("stale", Boolean(model.stale))
   const showChips = () => quantities().forEach((row) => row.showChip(model.chips[row.field.name]))
   const showPicks = () => picks.forEach((pick) => pick.show(model.catalogue))
 
   model.on("state", show)
   model.on("feasible", showStretches)
+  model.on("stale", showStale)
   model.on("chips", showChips)
   model.on("catalogue", showPicks)
   model.on("msg:custom", (message) => {
@@ -468,7 +471,8 @@ export function render({model}) {
   })
   show()
   showStretches()
+  showStale()
   showChips()
   showPicks()
-  return element("div", {className: "panel"}, ...groups)
+  return panel
 }
