@@ -18,8 +18,9 @@ from dashboard.compute.document import NextTick
 from dashboard.compute.inquiries import WAITING, Inquiry, InquiryRunner, question_of
 from dashboard.fields import FIELDS
 from dashboard.figures.decide import ChangeFigure, CloudFigure, MapFigure, PercentileFigure, TornadoFigure
-from dashboard.session.inputs import design_of, values_of
+from dashboard.session.inputs import values_of
 from dashboard.session.pins import PinError
+from dashboard.session.special import six_figures_of
 from dashboard.views.components import bokeh_pane, caption, panel
 from dashboard.views.tab import Tab
 
@@ -588,12 +589,12 @@ class Decide(Tab):
             self.what_matters.ask()
 
     def _take(self, design):
-        self._inputs.take(values_of(design))
+        self._inputs.take(values_of(six_figures_of(design)))
 
     def _pin(self, design):
         try:
             # as the sliders show it: a study of it opens as it was saved
-            shown = design_of(self._inputs.to_values() | values_of(design))
+            shown = six_figures_of(design)
             pin = self._pins.add(shown, "Found", self._inputs.preset)
         except PinError as problem:
             notify("warning", str(problem))
