@@ -68,6 +68,18 @@ def is_on_slider(name, value):
     return field.low <= shown <= field.high and to_si(name, shown) == value
 
 
+def six_figures_of(design):
+    """Return a design whose numbers have six figures, as sliders have: one that was found, not given."""
+    numbers = {name: getattr(design, name) for name in NUMBERS}
+    return design.replace(
+        **{
+            name: to_si(name, to_display(name, value))
+            for name, value in numbers.items()
+            if isinstance(value, float)
+        }
+    )
+
+
 def on_slider(name, value):
     """Return where a slider stands for a number of a design [display unit]: at its nearest end if beyond."""
     field = EVERY_FIELD[name]

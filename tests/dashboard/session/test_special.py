@@ -4,7 +4,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.session.inputs import DesignInputs, values_of
-from dashboard.session.special import OWN_RAIL, input_text, special_values
+from dashboard.session.special import OWN_RAIL, input_text, six_figures_of, special_values
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 CURVE = tig.StiffnessCurve([(5, 20e6, 0.1), (500, 30e6, 0.2)])
@@ -126,3 +126,8 @@ def test_a_rail_that_cannot_be_is_refused_with_advice(inputs):
 )
 def test_tables_say_what_is_special(field, text):
     assert input_text(MEASURED.replace(rail=RAIL, pad_loss_factor=LOSS), field) == text
+
+
+def test_a_design_that_was_found_is_taken_to_six_figures():
+    found = six_figures_of(MEASURED.replace(pad_stiffness=101.2345678e6, rail=RAIL))
+    assert found == MEASURED.replace(pad_stiffness=101.235e6, rail=RAIL)
