@@ -7,8 +7,9 @@ import panel as pn
 title = "trackig"
 try:
     from dashboard.app import TITLE, build
-    from dashboard.server import sessions
+    from dashboard.server import first_page, sessions
 
+    first_page.use_own_files(pn.state.curdoc)
     if sessions.admit(pn.state.curdoc):
         page, title = build(), TITLE
     else:

@@ -11,7 +11,7 @@ from weakref import WeakKeyDictionary
 from bokeh.server.urls import per_app_patterns
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from panel.io.document import _cleanup_doc
-from panel.io.resources import Resources
+from panel.io.resources import Resources, get_dist_path
 from panel.io.server import DocHandler, server_html_page_for_session
 from panel.io.session import generate_session
 from tornado.web import authenticated
@@ -74,6 +74,20 @@ def install():
         (route, FirstPageHandler if handler is DocHandler else handler, *more)
         for route, handler, *more in per_app_patterns
     ]
+
+
+def use_own_files(document):
+    """Have what is made in a session's document loaded from this server.
+
+    Panel notes where its files are when it writes the page of a document. Our page is written of another, and
+    without a note they are fetched from the internet, which a closed network does not have.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document
+        The session's document, still empty.
+    """
+    document.template_variables["dist_url"] = get_dist_path()
 
 
 def prepare(application_context, title):

@@ -37,6 +37,8 @@ def test_a_page_moves_below_a_prefix(served):
     assert there["status"] == "ok"
     assert there["version"] == tig.__version__
     assert there["sessions"] >= 1
+    assert "static/extensions/panel/css/loading.css" in str(visitor.models)
+    assert "://cdn." not in str(visitor.models), "a closed network has no internet"
     assert "EMPTY_LAYOUT" not in served.log.read_text()
 
 
