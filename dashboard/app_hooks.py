@@ -5,7 +5,6 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 
 import gc
 
-from panel.io.resources import LOCAL_DIST
 from tornado.ioloop import IOLoop
 
 import trackig_core as tig
@@ -37,14 +36,6 @@ def on_server_loaded(server_context):
     # a page that is made of the opening picture asks for no other
     loop = IOLoop.current()
     opening.future.add_done_callback(lambda _: loop.add_callback(rehearse))
-
-
-def on_session_created(session_context):
-    """Have a session's style sheets come from this server, as the first page's do.
-
-    Panel notes where from when it answers with a page; here sessions begin after that.
-    """
-    session_context._document._template_variables["dist_url"] = LOCAL_DIST
 
 
 def on_session_destroyed(session_context):
