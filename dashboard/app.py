@@ -20,19 +20,25 @@ from dashboard.client.browser import Browser
 from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.document import in_turns
+from dashboard.compute.feasibility import Feasibility
 from dashboard.compute.pinned import PinnedSummaries
+from dashboard.compute.responses import TrackResponses
 from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
 from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
+from dashboard.session.measuring import Measuring
 from dashboard.session.pins import Pins
+from dashboard.session.production import Production
 from dashboard.session.results import Outcome
+from dashboard.session.shelf import Shelf
 from dashboard.views.compare import Compare
 from dashboard.views.decide import Decide
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
 from dashboard.views.learn import Learn
+from dashboard.views.measured import Measured
 from dashboard.views.method import Method
 from dashboard.views.received_level import ReceivedLevel
 from dashboard.views.save_and_share import SaveAndShare, copy_button
@@ -40,6 +46,7 @@ from dashboard.views.sidebar import Controls
 from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
 from dashboard.views.track import Track
+from dashboard.views.track_response import TrackResponseView
 from dashboard.views.verify import Verify
 
 TITLE = "trackig"
@@ -85,20 +92,33 @@ def build(store=None, live_store=None):
     runner = Runner(inputs, outcome, store, live_store or shared_live_store())
     runner.start()
     checker = VerificationRunner(outcome)
+    feasibility, production = Feasibility(inputs, definition, assessment), Production()
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
-    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot)
+    measuring, shelf = Measuring(), Shelf()
+    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot, shelf)
+
+    def edit_curve(name):
+        measuring.param.update(part=name.split("_")[0], reading=None, answered=False)
+        snapshot.tab = Track.link_name
+        exchange.reveal(Measured.place)
 
     def show_insertion_gain():
         snapshot.tab = Explore.link_name
 
+    responses = TrackResponses(assessment)
+
+    def show_track():
+        response = TrackResponseView(assessment, responses, snapshot, exchange)
+        return Track(inputs, outcome, measuring, shelf, exchange, response, responses.look)
+
     makers = {
-        Explore: partial(Explore, outcome, definition, pins, assessment),
-        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain),
+        Explore: partial(Explore, outcome, definition, pins, assessment, production),
+        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain, exchange),
         SpecificationView: partial(SpecificationView, assessment, exchange),
-        Decide: partial(Decide, inputs, definition, pins, assessment),
+        Decide: partial(Decide, snapshot, exchange, feasibility, production),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
-        Track: partial(Track, inputs, outcome),
+        Track: show_track,
         Learn: partial(Learn, inputs, outcome, definition),
         Verify: partial(Verify, outcome, definition, checker.look),
         Method: Method,
@@ -111,7 +131,8 @@ def build(store=None, live_store=None):
     in_turns(put(exchange, bar_place, bar), report_error)
     last = chain(put(exchange, status_place, status), notify_of_problems(problems))
     shown = tabs(snapshot, makers, exchange, last)
-    return page([bar_place, Controls(inputs, outcome)], status_place, shown, browser, exchange)
+    controls = Controls(inputs, outcome, shelf, edit_curve, feasibility)
+    return page([bar_place, controls], status_place, shown, browser, exchange)
 
 
 def put(exchange, place, make):

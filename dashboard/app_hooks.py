@@ -5,8 +5,6 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 
 import gc
 
-from bokeh.core.validation import silence
-from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from tornado.ioloop import IOLoop
 
 import trackig_core as tig
@@ -15,7 +13,7 @@ from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shar
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
 from dashboard.server import first_page, sessions
-from dashboard.server_log import leave_out_departures
+from dashboard.server_log import leave_out_departures, leave_out_empty_places
 
 # the server is made after its hooks are read
 first_page.install()
@@ -24,8 +22,7 @@ first_page.install()
 def on_server_loaded(server_context):
     """Have kernels compiled and the presets solved while pages are served, the opening one first."""
     leave_out_departures()
-    # tabs and sidebar are places that are filled step by step
-    silence(EMPTY_LAYOUT)
+    leave_out_empty_places()
     compiled()
     opening, *_ = [
         shared_store().request((tig.PRESETS[key], AT_REST))

@@ -1,4 +1,4 @@
-"""What the server's log leaves out: readers who leave in the middle of a message.
+"""What the log leaves out: readers who leave in the middle of a message, and places yet to be filled.
 
 A page that is closed while its messages are handled, or while a picture is on its way to it, makes Bokeh and
 Tornado log a traceback each time, although nothing went wrong. Every other error stays in the log.
@@ -8,6 +8,8 @@ import logging
 from pathlib import PurePath
 from traceback import extract_tb
 
+from bokeh.core.validation import silence
+from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from tornado.websocket import WebSocketClosedError
 
 log = logging.getLogger(__name__)
@@ -41,6 +43,11 @@ def leave_out_departures():
         logger = logging.getLogger(name)
         if _is_worth_logging not in logger.filters:
             logger.addFilter(_is_worth_logging)
+
+
+def leave_out_empty_places():
+    """Keep warnings of layouts without children out of the log: each tab is a place until it is opened."""
+    silence(EMPTY_LAYOUT, True)
 
 
 def _is_worth_logging(record):

@@ -24,6 +24,9 @@ PRESET_GHOST = "#808080"
 THEORY = "#9c5fb5"
 """What comes from theory: exact curves."""
 
+EXTRAPOLATED = "#808080"
+"""Hatching of bands that rest on more than was measured."""
+
 SPECIFICATION = "#c2410c"
 """The limit of a specification, and where it is exceeded."""
 
@@ -138,6 +141,7 @@ ANSWER_CSS = """
     p { margin: 2px 0; font-size: 1.05rem; color: var(--panel-on-surface-color, inherit); }
     p.problem { color: #c2410c; font-weight: 600; }
     p.note { opacity: 0.75; }
+    h3 { margin: 4px 0 0 0; font-size: 15px; color: var(--panel-on-surface-color, inherit); }
 """
 """Answers that are read aloud."""
 
@@ -204,6 +208,14 @@ thead th:first-child, th[scope="row"] { background: var(--panel-surface-color); 
 .name { display: block; }
 .difference { display: block; font-size: 14px; font-weight: 400; opacity: 0.8; }
 """
+SHARES_CSS = f"""
+{TABLE_CSS}
+.bar {{ display: inline-block; height: 9px; margin-right: 6px; background: {THIS_DESIGN}; }}
+td {{ white-space: nowrap; }}
+p {{ margin: 6px 0; font-size: 14px; }}
+"""
+"""Tables of parts of a whole, each drawn as a bar."""
+
 PLAYER_CSS = """
 :host { font-family: var(--bokeh-base-font); font-size: 15px; color: var(--panel-on-background-color); }
 .bk-btn, select.bk-input { font-size: 15px; }
@@ -269,6 +281,8 @@ h3 {{ margin: 0; font-size: 15px; font-weight: 500; }}
 p {{ margin: 0; font-size: 14px; line-height: 1.35; }}
 p.observed {{ font-weight: 500; margin-bottom: 4px; font-variant-numeric: tabular-nums; }}
 p.figure {{ font-size: 38px; font-weight: 700; line-height: 1.2; font-variant-numeric: tabular-nums; }}
+.mains.statics {{ margin-top: 10px; }}
+.figure small {{ font-size: 16px; font-weight: 500; }}
 .loaded-track .figure {{ color: {LOADED_TRACK}; }}
 .coupled-block .figure {{ color: {COUPLED_BLOCK}; }}
 dl {{ display: grid; grid-template-columns: max-content 1fr; gap: 2px 12px; }}
@@ -398,6 +412,8 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
 .track input:focus-visible::-moz-range-thumb {{
     box-shadow: 0 0 0 8px color-mix(in srgb, var(--accent) 30%, transparent);
 }}
+.quantity.blank .track {{ visibility: hidden; }}
+.quantity.blank .unit {{ display: none; }}
 .stretches {{
     position: absolute; inset: 7px -1px; border: 1px solid {FAILS}; border-radius: 2px;
     background: repeating-linear-gradient(135deg, {FAILS}a0 0 1.5px, var(--panel-background-color) 1.5px 6px);
@@ -416,6 +432,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     font-variant-numeric: tabular-nums;
 }}
 .edge:hover {{ background: color-mix(in srgb, {COMPLIES} 25%, var(--panel-background-color)); }}
+.stale .stretches, .stale .edges {{ opacity: 0.35; transition: opacity 0.15s 0.25s; }}
 .box {{
     grid-area: 1 / 2 / span 2; display: flex; align-items: baseline; box-sizing: border-box; height: 34px;
     border: 1px solid var(--line); border-radius: 4px;
@@ -428,6 +445,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     text-align: right; font-variant-numeric: tabular-nums; border: none; outline: none; background: none;
 }}
 .unit {{ padding-right: 7px; font-size: 13px; color: var(--faint); }}
+.unit.wide {{ padding-right: 5px; font-size: 11px; letter-spacing: -0.3px; white-space: nowrap; }}
 .unit:empty {{ padding-right: 3px; }}
 .words, .advice {{ grid-column: 1 / -1; margin: 2px 0 4px 0; line-height: 1.35; overflow-wrap: anywhere; }}
 .words {{ font-size: 14px; }}
@@ -438,6 +456,10 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     text-align: left; border: 1px solid var(--accent); border-radius: 14px; background: none; cursor: pointer;
 }}
 .chip:hover {{ background: color-mix(in srgb, var(--accent) 15%, transparent); }}
+.pick {{
+    width: 116px; height: 24px; margin-left: auto; margin-right: 12px; padding: 0 20px 0 8px; font-size: 13px;
+    font-weight: 400; letter-spacing: 0;
+}}
 .disabled .label, .disabled .box, .disabled .track {{ opacity: 0.45; }}
 .disabled .track input {{ cursor: default; }}
 .disabled .box {{ pointer-events: none; }}
@@ -509,6 +531,15 @@ math { font-size: 17px; }
 .katex-display math { font-size: 19px; }
 """
 """Formulas as the browser sets them (MathML): KaTeX's own setting needs fonts that nobody here serves."""
+
+CATALOGUE_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+.scroll { max-height: 320px; overflow: auto; }
+table { border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }
+caption { text-align: left; font-weight: 500; padding-bottom: 4px; }
+th, td { text-align: left; vertical-align: top; padding: 3px 18px 3px 0; overflow-wrap: anywhere; }
+th { font-weight: 500; }
+"""
 
 SLOPES_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }

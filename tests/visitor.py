@@ -12,6 +12,8 @@ from urllib.parse import urlsplit
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
+SLIDER = "Boot stiffness, kN/mm"
+
 READY = {
     "kind": "MessageSent",
     "msg_type": "bokeh_event",
@@ -26,6 +28,15 @@ class Visitor:
     ----------
     url : str
         Address of the dashboard, with a query if there is one.
+
+    Attributes
+    ----------
+    models : dict
+        Every model that the page was told of, by its identity.
+    answered : int
+        Number of the last move that was answered.
+    pictures : int
+        How often the insertion gain was drawn anew.
     """
 
     def __init__(self, url):
@@ -33,10 +44,11 @@ class Visitor:
         self.socket = None
         self.models = {}
         self.title = None
-        self._count = 0
+        self.answered = self.pictures = 0
+        self._count = self._number = 0
 
-    async def open(self, pull=True, origin=None):
-        """Ask for the page, then for the document in it, unless that is left out."""
+    async def open(self, pull=True, origin=None, drawn=True):
+        """Ask for the page, then for the document in it, then wait for the picture, unless left out."""
         page = await AsyncHTTPClient().fetch(self.url, request_timeout=120)
         token = re.search(r'"token":"([^"]+)"', page.body.decode())[1]
         parts = urlsplit(self.url)
@@ -46,9 +58,13 @@ class Visitor:
             request_timeout=120,
         )
         self.socket = await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**26)
+        # as browsers do; else the second frame of a message waits until the first is acknowledged
+        self.socket.protocol.stream.set_nodelay(True)
         await self.receive("ACK")
         if pull:
             await self.pull()
+        if pull and drawn:
+            await self.until(lambda: self.named("insertion_gain") is not None, 120)
         return self
 
     async def pull(self):
@@ -70,9 +86,9 @@ class Visitor:
                 self._note(each)
 
     def named(self, name):
-        """Return the identity of the model of a name; None where no such model has been made yet."""
-        names = ((key, model["attributes"].get("name")) for key, model in self.models.items())
-        return next((key for key, each in names if each == name), None)
+        """Return the identity of the model of a name, or None."""
+        named = (key for key, model in self.models.items() if model["attributes"].get("name") == name)
+        return next(named, None)
 
     def component(self, attribute):
         """Return the identity of the component of ours whose script knows an attribute."""
@@ -92,6 +108,13 @@ class Visitor:
         for part in ({"msgid": f"{id(self)}-{self._count}", "msgtype": kind}, {}, content):
             await self.socket.write_message(json.dumps(part))
 
+    async def refusals(self):
+        """Return what the server refuses until it answers a plain question."""
+        refused = []
+        while (told := await self._message())[0] != "SERVER-INFO-REPLY":
+            refused += [told[1]] if told[0] == "ERROR" else []
+        return refused
+
     async def receive(self, kind=None):
         """Return the content of the next message of a kind, or of any; buffers are left out.
 
@@ -101,13 +124,30 @@ class Visitor:
             If the server has closed the socket.
         """
         while True:
-            header = await self._frame()
-            await self._frame()
-            content = await self._frame()
-            for _ in range(2 * header.get("num_buffers", 0)):
-                await self.socket.read_message()
-            if kind in (None, header["msgtype"]):
+            found, content = await self._message()
+            if kind in (None, found):
                 return content
+
+    async def _message(self):
+        header = await self._frame()
+        await self._frame()
+        content = await self._frame()
+        for _ in range(2 * header.get("num_buffers", 0)):
+            await self.socket.read_message()
+        if header["msgtype"] == "PATCH-DOC":
+            self._heed(content["events"])
+        return header["msgtype"], content
+
+    def _heed(self, events):
+        """Note what a change of the document says."""
+        source = self.named("insertion_gain")
+        self.pictures += any(event.get("model", {}).get("id") == source for event in events)
+        for event in events:
+            data = dict(event.get("msg_data", {}).get("values", {}).get("entries", ())).get("data", {})
+            told = dict(data.get("entries", ())) if isinstance(data, dict) else {}
+            if told.get("kind") == "answered":
+                self.answered = told["number"]
+        self._note(events)
 
     async def _frame(self):
         frame = await self.socket.read_message()
@@ -118,27 +158,36 @@ class Visitor:
         return json.loads(frame)
 
     async def move(self, value):
-        """Set the boot stiffness [kN/mm]."""
-        self._count += 1
-        values = {"boot_stiffness": value}
-        message = {"kind": "set", "number": self._count, "values": values, "gesture": self._count}
+        """Set the boot stiffness [kN/mm], whether or not the last move was answered."""
+        self._number += 1
+        message = {"kind": "set", "number": self._number, "values": {"boot_stiffness": value}, "gesture": 1}
         await self.patch(told(self.component("groups"), message))
+
+    async def until(self, is_so, timeout=60):
+        """Hear the server out until something is so."""
+        async with asyncio.timeout(timeout):
+            while not is_so():
+                await self.receive("PATCH-DOC")
 
     async def picture(self, timeout=60):
         """Wait for the next insertion gain, and return how long that took [s]."""
-        began = time.perf_counter()
-        async with asyncio.timeout(timeout):
-            while True:
-                content = await self.receive("PATCH-DOC")
-                self._note(content)  # parts of the page come one after the other
-                source = self.named("insertion_gain")
-                if any(event.get("model", {}).get("id") == source for event in content["events"]):
-                    return time.perf_counter() - began
+        began, seen = time.perf_counter(), self.pictures
+        await self.until(lambda: self.pictures > seen, timeout)
+        return time.perf_counter() - began
+
+    async def answer(self, timeout=60):
+        """Wait until the last move is answered, as the page does before it sends the next."""
+        await self.until(lambda: self.answered == self._number, timeout)
 
     def close(self):
         """Leave."""
         if self.socket is not None:
             self.socket.close()
+
+
+def changed(model, attribute, value):
+    """Return the change of a model's attribute."""
+    return {"kind": "ModelChanged", "model": {"id": model}, "attr": attribute, "new": value}
 
 
 def told(model, message):

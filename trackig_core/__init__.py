@@ -30,8 +30,10 @@ from trackig_core.time_domain.grid import RunTooLargeError
 from trackig_core.track.catalogue import PRESETS
 from trackig_core.track.design import TrackDesign
 from trackig_core.track.fields import DesignError
+from trackig_core.track.ground import GROUNDS, Ground
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
 from trackig_core.track.rails import RAILS, Rail
+from trackig_core.track.vehicle import VEHICLES, Suspension
 
 __version__ = version("trackig")
 
@@ -39,10 +41,13 @@ __all__ = [
     "BAND_CENTRES",
     "BAND_EDGES",
     "BAND_LABELS",
+    "GROUNDS",
     "PRESETS",
     "RAILS",
+    "VEHICLES",
     "BatchSolution",
     "DesignError",
+    "Ground",
     "InsertionGain",
     "LossFactorCurve",
     "MeasurementError",
@@ -56,6 +61,7 @@ __all__ = [
     "Specification",
     "StiffnessCurve",
     "Study",
+    "Suspension",
     "TrackDesign",
     "View",
     "analysis",

@@ -30,9 +30,11 @@ class TimeHistory:
     time : numpy.ndarray (samples,) [s]
         Time of each sample; it begins shortly before zero because the low-pass filter looks ahead.
     support_force : numpy.ndarray (samples, supports) [N]
-        Force that each support of the half ring passes into the ground.
+        Force that each support passes into the ground: those of half the ring, or of the whole where
+        several axles stand on it.
     multiplicity : numpy.ndarray (supports,) [-]
-        How many supports of the whole ring each column stands for: 1 under the wheel, else 2.
+        How many supports of the whole ring each column stands for: of half the ring 1 under the wheel, else
+        2; of the whole 1.
     wheel_displacement, rail_displacement, block_displacement : numpy.ndarray (samples,) [m]
         Displacement of the wheel, and of rail and block at the loaded support; ``block_displacement`` is
         None when single-stage.
@@ -45,7 +47,9 @@ class TimeHistory:
     steps : int [-]
         Time steps taken.
     decayed : bool
-        Whether the low-passed force had decayed by 80 dB at the end of the record.
+        Whether the low-passed force had died down at the end of the record.
+    last_onset : float [s]
+        When the step of roughness reached the last wheel.
     """
 
     time: RealArray = field(repr=False)
@@ -59,6 +63,7 @@ class TimeHistory:
     step: float
     steps: int
     decayed: bool
+    last_onset: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +99,8 @@ class InsertionGain:
     band_energy, reference_energy : numpy.ndarray (bands,) [N2 s]
         Energy of the track and of its reference, integrated over each band.
     reference : str
-        ``"line"`` (straight line fitted below resonance) or ``"rigid"`` (exact rigid track).
+        ``"line"`` (line fitted below resonance), ``"rigid"`` (exact rigid track) or ``"stiff"`` (very stiff
+        track on the same ground).
     summation : str
         ``"energy"`` (squared support forces summed) or ``"coherent"`` (forces summed, then squared).
     bands : Bands

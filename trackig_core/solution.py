@@ -10,10 +10,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from trackig_core.bands import BAND_LABELS, chosen_bands
-from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.levels.insertion_gain import insertion_gain, own_reference
 from trackig_core.track.design import measured_curves
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import pandas
     from matplotlib.axes import Axes
 
@@ -24,7 +26,11 @@ if TYPE_CHECKING:
     from trackig_core.track.design import TrackDesign
     from trackig_core.track.viscoelastic_law import Relaxation
 
-REFERENCE_WORDS = {"line": "straight reference line", "rigid": "rigid track"}
+REFERENCE_WORDS = {
+    "line": "straight reference line",
+    "rigid": "rigid track",
+    "stiff": "very stiff track on the same ground",
+}
 """What insertion gain refers to, in words."""
 
 SUMMATION_WORDS = {"energy": "squared support forces summed", "coherent": "support forces summed"}
@@ -55,6 +61,8 @@ class Solution:
         Low-passed time record; None when nothing was stepped in time.
     notes : tuple of str
         What the user should know: a halved time step, an extended record, a poor damping fit.
+    stiff_spectrum : callable or None
+        ``stiff_spectrum(design)`` returns the ForceSpectrum of the very stiff reference track.
     """
 
     design: TrackDesign
@@ -67,6 +75,7 @@ class Solution:
     grid: Grid | None = None
     history: TimeHistory | None = None
     notes: tuple[str, ...] = ()
+    stiff_spectrum: Callable[[TrackDesign], ForceSpectrum] | None = None
     _gains: dict[tuple[str, str, Bands], InsertionGain] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
@@ -112,14 +121,14 @@ class Solution:
         return None if self.history is None else self.history.support_force @ self.history.multiplicity
 
     def gain_for(
-        self, reference: str = "line", summation: str = "energy", bands: str = "one-third-octave"
+        self, reference: str | None = None, summation: str = "energy", bands: str = "one-third-octave"
     ) -> InsertionGain:
         """Return the insertion gain by another definition; each definition is computed once.
 
         Parameters
         ----------
-        reference : str
-            ``"line"`` or ``"rigid"``, as for :func:`trackig_core.insertion_gain`.
+        reference : str, optional
+            ``"line"``, ``"rigid"`` or ``"stiff"``, as for :func:`trackig_core.solve`.
         summation : str
             ``"energy"`` or ``"coherent"``, as for :func:`trackig_core.insertion_gain`.
         bands : str
@@ -133,13 +142,20 @@ class Solution:
         Raises
         ------
         ValueError
-            If a choice is not one of the above, or the spectrum does not cover the bands.
+            If a choice is not one of the above, the reference has no meaning for the design, or the spectrum
+            does not cover the bands.
         """
+        reference = own_reference(self.design) if reference is None else reference
         in_bands = self._covered(bands)
         known = self._gains.get((reference, summation, in_bands))
         if known is None:
             loaded_track = self.natural_frequencies.loaded_track
-            known = insertion_gain(self.spectrum, self.design, loaded_track, reference, summation, in_bands)
+            stiff = None
+            if reference == "stiff" and self.stiff_spectrum is not None:
+                stiff = self.stiff_spectrum(self.design)
+            known = insertion_gain(
+                self.spectrum, self.design, loaded_track, reference, summation, in_bands, stiff
+            )
             self._gains[reference, summation, in_bands] = known
         return known
 

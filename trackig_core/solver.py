@@ -15,17 +15,24 @@ from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.frequency_domain.convergence import time_step_errors
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.natural_frequencies import PEAK_REACH, natural_frequencies, peak_near
-from trackig_core.frequency_domain.refinement import banded_spectrum
+from trackig_core.frequency_domain.refinement import banded_spectrum, gain_of, stiff_spectrum
 from trackig_core.frequency_domain.track_model import DAMPINGS, Track, TrackModel, track_model
-from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, insertion_gain
+from trackig_core.levels.insertion_gain import SUMMATIONS, check_choice, check_reference, own_reference
 from trackig_core.results import ForceSpectrum, NaturalFrequencies, TimeHistory
 from trackig_core.solution import Solution
 from trackig_core.time_domain import adaptive_grid
 from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid
 from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
-from trackig_core.time_domain.time_stepping import simulate
+from trackig_core.time_domain.time_stepping import Ending, simulate
 from trackig_core.track.catalogue import PRESETS
-from trackig_core.track.design import DesignError, measured_curves
+from trackig_core.track.design import (
+    ELEMENTS_PER_BAY,
+    DesignError,
+    TrackDesign,
+    axle_elements,
+    measured_curves,
+)
+from trackig_core.track.ground import GROUNDS
 
 POOR_FIT = 0.1
 """Relative error of a fitted loss factor above which the solution says so [-]."""
@@ -47,7 +54,7 @@ def solve(
     design: Track,
     fidelity: str = "paper",
     *,
-    reference: str = "line",
+    reference: str | None = None,
     summation: str = "energy",
     damping: str = "viscoelastic",
     bands: str = "one-third-octave",
@@ -67,8 +74,10 @@ def solve(
         answer, with a second-order damping recursion; it says in ``grid`` and ``notes`` what it chose.
         ``"exact"``: the same lattice, infinitely long and in continuous time, solved frequency by
         frequency in closed form; nothing is stepped, so there are no time records.
-    reference : str
-        ``"line"`` (the paper's straight line) or ``"rigid"`` (the exact rigid track).
+    reference : str, optional
+        ``"line"`` (the paper's straight line; with a suspension it rises as the rigid track's), ``"rigid"``
+        (the exact rigid track) or ``"stiff"`` (a very stiff track on the same ground, under the same
+        vehicle). By default the line, or where the ground yields, which leaves no other, the stiff track.
     summation : str
         ``"energy"`` (squared support forces, the paper's) or ``"coherent"`` (forces).
     damping : str
@@ -101,12 +110,13 @@ def solve(
     DesignError
         If ``design`` is no design, or its exact solution has no bound for want of any loss.
     ValueError
-        If a choice is not one of the above, or is for fidelity ``"exact"`` alone.
+        If a choice is not one of the above, the reference has no meaning for the design, or a choice is for
+        fidelity ``"exact"`` alone.
     """
     check_choice("damping", damping, DAMPINGS)
     model = track_model(design, damping)
     check_choice("fidelity", fidelity, FIDELITIES)
-    check_choice("reference", reference, REFERENCES)
+    check_reference(model.design, own_reference(model.design) if reference is None else reference)
     check_choice("summation", summation, SUMMATIONS)
     in_bands, lattice = chosen_bands(bands), Lattice(rail=rail)
     wide = in_bands.last > ONE_THIRD_OCTAVES.last
@@ -120,34 +130,87 @@ def solve(
     elif fidelity == "live":
         chosen = adaptive_grid.plan(model)
         grid = chosen.grid
-        history = simulate(
+        history, spectrum = _stepped(
             model,
             grid,
+            adaptive_grid.PADDING,
+            progress,
+            cancelled,
             memory_order=adaptive_grid.MEMORY_ORDER,
-            ending=adaptive_grid.Settled(),
-            progress=progress,
-            cancelled=cancelled,
+            ending=adaptive_grid.Settled,
         )
-        spectrum = force_spectrum(history, adaptive_grid.PADDING)
-        notes = _plan_notes(chosen, history)
+        notes = _plan_notes(chosen, history) + _record_notes(model.design)
     else:
         grid = make_grid(model)
-        history = simulate(model, grid, progress=progress, cancelled=cancelled)
-        spectrum = force_spectrum(history)
+        history, spectrum = _stepped(model, grid, 1, progress, cancelled)
         notes = grid.notes + _extension_notes(grid, history) + _step_notes(model, grid)
+        notes += _record_notes(model.design)
     frequencies = natural_frequencies(model)
     return Solution(
         design=model.design,
         fidelity=fidelity,
-        gain=insertion_gain(spectrum, model.design, frequencies.loaded_track, reference, summation, in_bands),
+        gain=gain_of(model, spectrum, reference, summation, in_bands),
         spectrum=spectrum,
         natural_frequencies=_observed(model, frequencies, spectrum, history),
         pad_law=model.pad,
         boot_law=model.boot,
         grid=grid,
         history=history,
-        notes=notes + _fit_notes(model) + _extrapolation_notes(model) + (_WIDE_NOTES if wide else ()),
+        notes=notes
+        + _fit_notes(model)
+        + _extrapolation_notes(model)
+        + (_WIDE_NOTES if wide else ())
+        + _axle_notes(model.design),
+        stiff_spectrum=stiff_spectrum,
     )
+
+
+def _stepped(
+    model: TrackModel,
+    grid: Grid,
+    padding: float,
+    progress: Callable[[float], object] | None,
+    cancelled: Callable[[], object] | None,
+    memory_order: int = 1,
+    ending: Callable[[], Ending] | None = None,
+) -> tuple[TimeHistory, ForceSpectrum]:
+    """Step a track through time, and return the record and the spectrum.
+
+    Wheels whose roughness is independent are excited one after the other, each in a run of its own, and their
+    energies add; the record is then that of the first.
+    """
+    wheels = len(model.design.axle_positions)
+    independent = model.design.speed is None and wheels > 1
+    first: TimeHistory | None = None
+    spectra: list[ForceSpectrum] = []
+    for wheel in range(wheels if independent else 1):
+        history = simulate(
+            model,
+            grid,
+            memory_order=memory_order,
+            rough_wheel=wheel if independent else None,
+            ending=None if ending is None else ending(),
+            progress=_share(progress, wheel, wheels) if independent else progress,
+            cancelled=cancelled,
+        )
+        first = first or history
+        spectra.append(force_spectrum(history, padding, like=first))
+    assert first is not None
+    if not independent:
+        return first, spectra[0]
+    summed = replace(
+        spectra[0],
+        energy=np.sum([each.energy for each in spectra], axis=0),
+        coherent_energy=np.sum([each.coherent_energy for each in spectra], axis=0),
+    )
+    return first, summed
+
+
+def _share(
+    progress: Callable[[float], object] | None, done: int, runs: int
+) -> Callable[[float], object] | None:
+    """Return what reports the progress of one of several runs as that of all."""
+    return None if progress is None else lambda fraction: progress((done + fraction) / runs)
 
 
 def _check_stepped(model: TrackModel, wide_bands: str | None, lattice: Lattice) -> None:
@@ -192,6 +255,24 @@ def _fit_notes(model: TrackModel) -> tuple[str, ...]:
     )
 
 
+def _record_notes(design: TrackDesign) -> tuple[str, ...]:
+    """Return what the record shows where wheels whose roughness is independent are excited one by one."""
+    if design.speed is not None or len(design.axle_positions) == 1:
+        return ()
+    return ("independent roughness: energies of one run per axle are summed; the record is the first axle's",)
+
+
+def _axle_notes(design: TrackDesign) -> tuple[str, ...]:
+    """Return where the axles stand, if not where they were asked to."""
+    dx = design.fastener_spacing / ELEMENTS_PER_BAY
+    stand = [element * dx for element in axle_elements(design.axle_positions, design.fastener_spacing)]
+    moved = (abs(here - there) for here, there in zip(stand, design.axle_positions, strict=True))
+    if max(moved) < 1e-3 * dx:
+        return ()
+    places = ", ".join(f"{each:.3g}" for each in stand)
+    return (f"axles stand on the nearest rail elements, {dx:.3g} m apart: at {places} m",)
+
+
 def _extrapolation_notes(model: TrackModel) -> tuple[str, ...]:
     """Return which bands rest on more than was measured."""
     notes = []
@@ -219,7 +300,7 @@ def _decay_notes(history: TimeHistory) -> tuple[str, ...]:
     if history.decayed:
         return ()
     record = history.steps * history.time_step
-    return (f"the force had not died down by 80 dB at {record:.3g} s: do not trust sharp resonances",)
+    return (f"the force had not died down at {record:.3g} s: do not trust sharp resonances",)
 
 
 def _plan_notes(chosen: adaptive_grid.Plan, history: TimeHistory) -> tuple[str, ...]:
@@ -254,7 +335,9 @@ def _step_notes(model: TrackModel, grid: Grid) -> tuple[str, ...]:
 def compile_kernels() -> None:
     """Compile every kernel, or load it from Numba's cache on disk, by solving one track in every way."""
     design = PRESETS["booted-block-low-mass"]
-    simulate(design, make_grid(design, bays=FEWEST_BAYS, record=0.25))
+    surrounded = design.replace(axle_positions=(0.0, 0.6), ground=GROUNDS["rock"])
+    for each in (design, surrounded):
+        simulate(each, make_grid(each, bays=FEWEST_BAYS, record=0.25))
     banded_spectrum(design)
     floquet_waves.receptance(design, [50.0])
     solve_many(design)

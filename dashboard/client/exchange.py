@@ -18,25 +18,31 @@ import panel as pn
 import param
 
 from dashboard.compute.document import on_next_tick, one_message
+from dashboard.session.shelf import Shelf
 from trackig_core.levels import band_tables
-from trackig_core.study import studies
+from trackig_core.study import StudyError, studies
 
 MOST = {
     "study": studies.MOST_BYTES,
     "specification": band_tables.MOST_BYTES,
     "source": band_tables.MOST_BYTES,
+    "measured": band_tables.MOST_BYTES,
+    "stiffness": band_tables.MOST_BYTES,
+    "catalogue": studies.MOST_BYTES,
 }
 """Size that a file may have [bytes], by what it is opened for."""
 
-ACCEPTED = {"study": ".toml", "specification": ".csv,.txt,.tsv", "source": ".csv,.txt,.tsv"}
+ACCEPTED = dict.fromkeys(MOST, ".csv,.txt,.tsv") | dict.fromkeys(("study", "catalogue"), ".toml")
 """What the browser's dialog offers, by what a file is opened for."""
 
 REST = 0.3
 """Seconds without a change after which the address bar follows."""
 
 COPIED = "The link is copied: it holds the design, the pinned designs and the view."
+NEEDS_FILE = "The link is copied, but needs the study file: it cannot hold {}. Send the study with it."
 NOT_COPIED = "The browser does not let the page copy. Copy the address from the address bar: it is the link."
 HANDLING_FAILED = "Something went wrong; the server's log has the details."
+NOT_RECALLED = "The catalogue that this browser remembered cannot be read any more; it is forgotten."
 NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
 
 LASTING = {"success": 3000, "warning": 8000, "error": 8000}
@@ -74,6 +80,8 @@ class Exchange(Scripted):
     ----------
     snapshot : SessionSnapshot
         What the address bar follows.
+    shelf : Shelf, optional
+        The catalogue that the browser remembers, whatever study is open.
     """
 
     kept = param.List(default=["", ""], doc="Query string of the link, and the study as TOML.")
@@ -81,16 +89,17 @@ class Exchange(Scripted):
 
     _esm = (Path(__file__).parent / "scripts" / "exchange.js").read_text(encoding="utf-8")
 
-    def __init__(self, snapshot):
+    def __init__(self, snapshot, shelf=None):
         super().__init__(
             session=secrets.token_hex(8), width=0, height=0, margin=0, styles={"position": "absolute"}
         )
-        self._snapshot = snapshot
+        self._snapshot, self._shelf = snapshot, shelf or Shelf()
         self._openers = {}
         self._waiting = False
         self._changed = False
         self._note()
         snapshot.watch(self._follow)
+        self._shelf.param.watch(self._remember, "catalogue")
 
     def _note(self):
         self.kept = [self._snapshot.query(), self._snapshot.study().to_toml()]
@@ -127,6 +136,10 @@ class Exchange(Scripted):
         """
         self._send_msg({"kind": "save", "name": name, "data": data, "type": kind})
 
+    def reveal(self, name):
+        """Have the browser bring the part of the page of a name into sight, once it is there."""
+        self._send_msg({"kind": "reveal", "name": name})
+
     def introduce(self):
         """Have the browser answer, now that a part of the page was added.
 
@@ -141,10 +154,35 @@ class Exchange(Scripted):
         match message:
             case {"kind": "restore", "data": str(data)}:
                 self._restore(data)
+            case {"kind": "recalled", "data": str(data)}:
+                self._recall(data)
             case {"kind": "copied", "data": bool(copied)}:
-                notify("success", COPIED) if copied else notify("warning", NOT_COPIED)
+                self._tell_of_link(copied)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
                 self._openers[purpose](data)
+
+    def _tell_of_link(self, copied):
+        left_out = self._snapshot.left_out
+        if not copied:
+            notify("warning", NOT_COPIED)
+        elif left_out:
+            notify("warning", NEEDS_FILE.format(left_out))
+        else:
+            notify("success", COPIED)
+
+    def _remember(self, *_):
+        """Have the browser remember the catalogue beyond this session, unless it is the bundled one."""
+        own = self._shelf.catalogue.to_toml() if self._shelf.is_own else ""
+        self._send_msg({"kind": "remember", "data": own})
+
+    def _recall(self, data):
+        try:
+            self._shelf.open(data)
+        except StudyError:
+            # it was in the browser's memory, where anybody may have written
+            log.info("A remembered catalogue was refused", exc_info=True)
+            notify("warning", NOT_RECALLED)
+            self._remember()
 
     def _restore(self, data):
         try:

@@ -28,20 +28,33 @@ class Quantities(Scripted):
         Called without arguments when the way back to the chosen track is taken.
     on_chip : callable
         Called with the name of the field whose chip was clicked.
+    on_pick : callable
+        Called with kind and name of what was chosen from the catalogue, whatever somebody may have sent.
     """
 
     groups = param.List(default=[], doc="Title, fields, and whether closed, of each group; see the script.")
     state = param.Dict(
-        default={"number": 0, "values": {}, "refused": {}, "disabled": [], "marks": {}, "modified": False},
-        doc="What is set, by name: values, advice where a text was refused, what is disabled, ticks on "
-        "sliders; and the number of the last message that it reflects.",
+        default={
+            "number": 0,
+            "values": {},
+            "refused": {},
+            "disabled": [],
+            "hidden": [],
+            "words": {},
+            "marks": {},
+            "modified": False,
+        },
+        doc="What is set, by name: values, advice where a text was refused, what is disabled or hidden, "
+        "ticks on sliders; and the number of the last message that it reflects.",
     )
     feasible = param.Dict(
         default={},
         doc="Stretches (low, high) of a slider, by name, in which the design complies [display units]; an "
         "empty list: nowhere; no entry: nothing is drawn.",
     )
+    stale = param.Boolean(default=False, doc="Whether the stretches are those of an earlier design.")
     chips = param.Dict(default={}, doc="Words of a button that stands in a slider's place, by name.")
+    catalogue = param.Dict(default={}, doc="Names that a group may be set from, by kind of component.")
 
     _esm = SCRIPT.read_text(encoding="utf-8")
     _stylesheets: ClassVar = [theme.QUANTITIES_CSS]
@@ -49,6 +62,7 @@ class Quantities(Scripted):
     on_set = None
     on_revert = None
     on_chip = None
+    on_pick = None
 
     def handle_message(self, message):
         """Hand on what the user set or clicked; what fits no field asks for nothing."""
@@ -59,6 +73,8 @@ class Quantities(Scripted):
                 self.on_revert()
             case {"kind": "chip", "name": str(name)} if name in self.chips and self.on_chip is not None:
                 self.on_chip(name)
+            case {"kind": "pick", "of": str(kind), "name": str(name)} if self.on_pick is not None:
+                self.on_pick(kind, name)
 
     def answer(self, number):
         """Tell the browser that the picture of a message was drawn, or given up."""

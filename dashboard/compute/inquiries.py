@@ -135,8 +135,8 @@ class _Work:
         self.found = found
 
 
-def question_of(kind, settings, assessment, definition):
-    """Return a question about the current design by the definition and requirements in force.
+def question_of(kind, settings, assessment, definition, design=None):
+    """Return a question about a design by the definition and requirements in force.
 
     Parameters
     ----------
@@ -148,6 +148,8 @@ def question_of(kind, settings, assessment, definition):
         Current design, specification and source.
     definition : GainDefinition
         Which insertion gain is meant.
+    design : trackig_core.TrackDesign, optional
+        The design; by default the current one as it was last solved.
 
     Returns
     -------
@@ -157,7 +159,7 @@ def question_of(kind, settings, assessment, definition):
     with contextlib.suppress(ValueError):
         return tig.decide.Question(
             kind,
-            assessment.current.design,
+            assessment.current.design if design is None else design,
             settings,
             specification=assessment.specification,
             source=assessment.source,

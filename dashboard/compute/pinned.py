@@ -85,7 +85,7 @@ class PinnedSummaries(param.Parameterized):
 
     async def _obtain(self, pin):
         """Return the picture of a pin, or None if it was removed meanwhile."""
-        job = self._store.request((pin.design, AT_REST))
+        job = self._store.request((pin.design, AT_REST), owner=self)
         try:
             future = asyncio.wrap_future(job.future)
             # an abandoned job may still raise; nobody is left to hear it

@@ -23,7 +23,10 @@ from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, compiled
 from dashboard.fields import PHYSICAL
 
 REST = 0.2
-"""Seconds without a change after which inputs are at rest."""
+"""Seconds without a change after which inputs are at rest, unless pictures take longer than that."""
+
+RESTS = 2
+"""Times that a picture takes after which inputs are at rest: a busy server is no resting hand."""
 
 SOON = 0.06
 """Seconds for which a live run is waited for before the exact curve is drawn."""
@@ -142,33 +145,41 @@ class Runner(param.Parameterized):
 
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
+        taken = 0.0
         live = asyncio.ensure_future(self._obtain((design, MOVING), document))
         try:
             # what live fidelity refuses or gives up, the paper's run answers or explains
             with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
-                await self._bridge(live, design, document)
+                taken = await self._bridge(live, design, document)
                 summary, _ = await live
                 self._publish(document, **self._success(design, summary, from_cache=False))
         finally:
             _abandon(live)
-        if await self._news_within(REST):
+        if await self._news_within(max(REST, RESTS * taken)):
             raise _SupersededError
 
     async def _bridge(self, live, design, document):
-        """Draw the exact curve while a live run is awaited for long; what is newer then ends the wait.
+        """Draw the exact curve while a live run is awaited for long, and return when there was a picture [s].
 
-        Where the last one took long, this one will: its exact curve is drawn without waiting.
+        What is newer ends the wait.
+
+        Where the last one took long, or others wait for theirs, this one will: its exact curve is drawn
+        without waiting. It stays where the live run is given up.
         """
         began = time.monotonic()
-        await asyncio.wait({live}, timeout=0 if self._live_is_slow else SOON)
+        is_slow = self._live_is_slow or self._live_store.is_crowded()
+        await asyncio.wait({live}, timeout=0 if is_slow else SOON)
+        taken = time.monotonic() - began
         if not live.done():
             summary, from_cache = await self._obtain((design, AT_ONCE), document)
-            if not live.done():
+            taken = time.monotonic() - began
+            if not live.done() or live.exception() is not None:
                 self._publish(document, **self._success(design, summary, from_cache))
                 await self._look_up(live, whatever_is_new=True, seconds=PATIENCE)
                 if not live.done() and self._latest.pending:
                     raise _SupersededError
         self._live_is_slow = time.monotonic() - began > SOON
+        return taken
 
     async def _news_within(self, seconds):
         """Wait some time at most, and return whether newer inputs arrived."""
@@ -195,7 +206,7 @@ class Runner(param.Parameterized):
 
     async def _obtain(self, key, document):
         store = self._store if key[1] == AT_REST else self._live_store
-        job = store.request(key)
+        job = store.request(key, owner=self, urgent=key[1] == AT_ONCE)
         try:
             await self._wait(job, document)
             return job.future.result(), job.from_cache
@@ -214,7 +225,7 @@ class Runner(param.Parameterized):
             if self._stopping:
                 raise _StoppedError
             worked = 0.0 if job.began is None else time.monotonic() - job.began
-            if moving and worked > PATIENCE:
+            if job.key[1] == MOVING and worked > PATIENCE:
                 raise _SlowError
             if not moving and self._latest.pending:
                 raise _SupersededError

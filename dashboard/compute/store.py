@@ -59,7 +59,7 @@ class SolutionStore:
     solve : callable
         ``solve(key, progress, cancelled)`` returns the value of a key. It calls
         ``progress(fraction)`` now and then, and gives up by raising when ``cancelled()`` is true.
-    executor : concurrent.futures.Executor
+    executor : FairExecutor
         Where it runs.
     capacity : int
         How many values are kept; the one that was not asked for the longest goes first.
@@ -87,13 +87,21 @@ class SolutionStore:
             self._finished.move_to_end(key)
             return self._finished[key]
 
-    def request(self, key):
+    def is_crowded(self):
+        """Return whether as many jobs wait as can be done at a time."""
+        return self._executor.is_crowded()
+
+    def request(self, key, owner=None, urgent=False):
         """Ask for a value; give the job back with :meth:`release` when done with it.
 
         Parameters
         ----------
         key : hashable
             What is asked for.
+        owner : hashable, optional
+            Who asks: owners are served in turn.
+        urgent : bool
+            Whether it comes before all that is not; only what takes milliseconds should.
 
         Returns
         -------
@@ -110,7 +118,7 @@ class SolutionStore:
             job = self._running.get(key)
             if job is None:
                 job = Job(key)
-                job.future = self._executor.submit(self._work, job)
+                job.future = self._executor.submit(self._work, job, owner=owner, urgent=urgent)
                 self._running[key] = job
             job.waiting += 1
             return job

@@ -3,9 +3,9 @@
 import functools
 import os
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import trackig_core as tig
+from dashboard.compute.fair import FairExecutor
 from dashboard.compute.store import SolutionStore
 from dashboard.session.results import SolutionSummary
 
@@ -49,7 +49,7 @@ def solve_summary(key, progress, cancelled):
 @functools.cache
 def workers():
     """Return the threads that all sessions of this process share for work that takes its time."""
-    return ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="solver")
+    return FairExecutor(os.cpu_count() or 1, "solver")
 
 
 @functools.cache
@@ -68,5 +68,5 @@ def shared_store():
 def shared_live_store():
     """Return the store of pictures that follow the hand; its own threads wait for nobody's paper run."""
     # one more than there are processors: an exact curve, a matter of milliseconds, waits for no live run
-    threads = ThreadPoolExecutor(max_workers=1 + (os.cpu_count() or 1), thread_name_prefix="live")
+    threads = FairExecutor(1 + (os.cpu_count() or 1), "live", spare=1)
     return SolutionStore(solve_summary, threads, LIVE_CAPACITY)

@@ -142,6 +142,7 @@ class TornadoFigure:
         self._fields = FactorRange(factors=[])
         self.model = plot = figure(
             name="tornado_figure",
+            x_range=Range1d(-1.0, 1.0),
             y_range=self._fields,
             x_axis_label="Change",
             stylesheets=[theme.MEDIUM],
@@ -185,6 +186,7 @@ class TornadoFigure:
         """
         self._fields.factors = list(labels)[::-1]
         self.model.xaxis.axis_label = axis
+        _fit(self.model.x_range, np.append(changes, 0.0))
         self.bars.data = {"field": list(labels), "less": changes[:, 0], "more": changes[:, 1]}
 
 
@@ -392,6 +394,7 @@ class CloudFigure:
             name="found_gain_figure",
             aria_label="Insertion gain of the selected designs",
             x_axis_type="log",
+            y_range=Range1d(-30.0, 20.0),
             x_axis_label="One-third-octave band, Hz",
             y_axis_label="Insertion gain, dB",
             stylesheets=[theme.MEDIUM],
@@ -402,7 +405,14 @@ class CloudFigure:
         self.designs.selected.on_change("indices", self._selected)
 
     def _picture(self, name, words, height):
-        plot = figure(name=name, stylesheets=[height], x_axis_label="", y_axis_label="")
+        plot = figure(
+            name=name,
+            x_range=Range1d(0.0, 1.0),
+            y_range=Range1d(0.0, 1.0),
+            x_axis_label="",
+            y_axis_label="",
+            stylesheets=[height],
+        )
         dress(plot, words)
         plot.add_tools(TapTool(), BoxSelectTool(persistent=False))
         return plot
@@ -429,7 +439,7 @@ class CloudFigure:
             selection_line_alpha=1,
             nonselection_line_alpha=0.04,
         )
-        self.fields.y_range = Range1d(-0.04, 1.04)
+        _fit(self.fields.y_range, np.array([0.0, 1.0]))
         self.fields.yaxis.visible = False
         self.fields.ygrid.visible = False
         self.gains.multi_line(
@@ -478,6 +488,11 @@ class CloudFigure:
             "size": np.where(front, 9, 5),
         }
         self.objectives.xaxis.axis_label, self.objectives.yaxis.axis_label = axes
+        _fit(self.objectives.x_range, x)
+        _fit(self.objectives.y_range, y)
+        _fit(self.fields.x_range, np.array([0.0, max(1.0, len(axis) - 1.0)]))
+        shown = np.append(levels[found.front if found.front.size else [found.closest]], limit)
+        _fit(self.gains.y_range, shown[np.isfinite(shown)])
         self.fields.xaxis.ticker = FixedTicker(ticks=axis)
         self.fields.xaxis.major_label_overrides = dict(zip(axis, labels, strict=True))
         self.limit.data = BANDS | {"limit": limit}
@@ -493,6 +508,17 @@ class CloudFigure:
         levels = self._levels[chosen]
         self.curves.data = {"xs": [tig.BAND_CENTRES] * len(levels), "ys": list(levels)}
         self._on_select(int(rows[indices[0]]) if len(indices) else None)
+
+
+def _fit(ends, values):
+    """Have an axis show values, with some room; an axis that has nothing to show yet would complain."""
+    low, high = float(np.min(values)), float(np.max(values))
+    room = ROOM * ((high - low) or 1.0)
+    ends.update(start=low - room, end=high + room, reset_start=low - room, reset_end=high + room)
+
+
+ROOM = 0.05
+"""Room between data and the ends of an axis, of what they span [-]."""
 
 
 def _draw_limit(plot, source, **legend):

@@ -17,6 +17,7 @@ from bokeh.models import (
     Segment,
     Span,
     Text,
+    VArea,
 )
 
 import trackig_core as tig
@@ -38,7 +39,14 @@ from dashboard.figures.legends import (
     pinned_entry,
     with_legend,
 )
-from dashboard.figures.swatches import excess_svg, limit_svg, swatch_svg
+from dashboard.figures.swatches import (
+    MARKERS,
+    excess_svg,
+    extrapolated_svg,
+    limit_svg,
+    point_svg,
+    swatch_svg,
+)
 from trackig_core.levels.specification import LEVEL_TOLERANCE
 
 LEAST_LEVELS = (-28.0, 18.0)
@@ -112,13 +120,26 @@ class InsertionGainFigure:
     limit : bokeh.models.ColumnDataSource
         Named ``limit``: per band its edges, the required ``limit`` [dB], ``before``, that of the band to the
         left, and ``failing``, the level of the design where it exceeds the limit; NaN where there is none.
+    extrapolated : bokeh.models.ColumnDataSource
+        Named ``extrapolated``: edges of the bands of the design that rest on more than was measured [Hz].
+    measured : bokeh.models.ColumnDataSource
+        Named ``measured``: per band its ``centre`` [Hz] and levels ``curve_0`` to ``curve_3`` from elsewhere
+        [dB], NaN where there is none.
+    production : bokeh.models.ColumnDataSource
+        Named ``production``: per band its ``centre`` [Hz], and the ``low`` and ``high`` end of insertion gain
+        of nine in ten of production [dB]; empty when there is none.
     """
 
     def __init__(self):
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
         self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
-        self._drawn, self._limited, self._limit_drawn = (), False, False
+        self.extrapolated = ColumnDataSource(name="extrapolated", data={"left": [], "right": []})
+        self.measured = ColumnDataSource(name="measured", data=_measured_columns(()))
+        self.production = ColumnDataSource(name="production", data=NO_PRODUCTION)
+        self._measured, self._points = (), []
+        self._drawn, self._limited, self._limit_drawn, self._production_drawn = (), False, False, False
+        self._beyond, self._beyond_drawn = (), False
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
             name="insertion_gain_figure",
@@ -203,17 +224,61 @@ class InsertionGainFigure:
         plot.renderers[behind:behind] = parts
         self._limit_drawn = True
 
+    def _show_extrapolated(self, bands):
+        """Hatch bands that rest on extrapolation over the whole height, behind all else."""
+        if bands == self._beyond:
+            return
+        self._beyond = bands
+        if not self._beyond_drawn:
+            self._draw_extrapolated()
+        at = [tig.BAND_LABELS.index(band) for band in bands]
+        self.extrapolated.data = {"left": tig.BAND_EDGES[:-1][at], "right": tig.BAND_EDGES[1:][at]}
+
+    def _draw_extrapolated(self):
+        hatching = Quad(
+            left="left",
+            right="right",
+            bottom=-HIGHER_THAN_ANY,
+            top=HIGHER_THAN_ANY,
+            fill_color=None,
+            line_color=None,
+            hatch_pattern="left_diagonal_line",
+            hatch_color=theme.EXTRAPOLATED,
+            hatch_alpha=0.35,
+            hatch_weight=1,
+            hatch_scale=14,
+        )
+        self.model.renderers.insert(0, GlyphRenderer(data_source=self.extrapolated, glyph=hatching))
+        self._beyond_drawn = True
+
+    def _draw_production(self):
+        """Draw the range of production behind all else; a figure pays at every frame for what it has."""
+        area = VArea(
+            x="centre",
+            y1="low",
+            y2="high",
+            fill_color=theme.THIS_DESIGN,
+            fill_alpha=theme.FILL_ALPHA,
+            hatch_pattern="dot",
+            hatch_color=theme.THIS_DESIGN,
+            hatch_alpha=theme.BAR_ALPHA,
+            hatch_scale=6,
+        )
+        self.model.renderers.insert(0, GlyphRenderer(data_source=self.production, glyph=area))
+        self._production_drawn = True
+
     def name_axis(self, words):
         """Say on the axis which insertion gain is drawn."""
         self.model.yaxis.axis_label = words
 
-    def show(self, current, pinned=(), preset=None, limit=None, alone=False):
+    def show(self, current, pinned=(), preset=None, limit=None, alone=False, measured=(), production=None):
         """Draw insertion gain, and behind it that of the preset it departs from and of pinned designs.
 
         Parameters
         ----------
         current : DesignResult
-            The current design, solved; its natural frequencies are marked.
+            The current design, solved; its natural frequencies are marked, and bands hatched that rest on
+            extrapolation of what was measured.
         pinned : tuple of DesignResult
             Pinned designs, solved; the same ones again are not sent again.
         preset : DesignResult or None
@@ -222,23 +287,32 @@ class InsertionGainFigure:
             Greatest insertion gain allowed [dB], NaN in bands that have no limit.
         alone : bool
             Whether the pinned designs stand alone: then of the current design nothing is drawn.
+        measured : tuple of trackig_core.levels.MeasuredGain
+            Up to four curves from elsewhere, drawn as points.
+        production : numpy.ndarray (2, 21) or None
+            Insertion gain below which 5 and 95 % of production lie [dB].
         """
         levels, natural = current.levels, current.summary.solution.natural_frequencies
         preset = NO_LEVELS if preset is None or alone else preset.levels
         self.bands.data = _band_columns(levels, preset)
         self._show_limit(limit, NO_LEVELS if alone else levels)
+        self._show_extrapolated(() if alone else current.summary.solution.extrapolated_bands)
+        self._show_production(None if alone else production)
         for part in (self._fill, self._line, self._dots):
             part.visible = not alone
         self._loaded_track.show(None if alone else natural.loaded_track)
         self._coupled_block.show(None if alone else natural.coupled_block)
         self._show_pinned(pinned)
+        self._show_measured(measured)
         self._name_on_hover(pinned, alone)
         self._list_what_is_drawn(pinned)
         seen = [
             NO_LEVELS if alone else levels,
             preset,
             self.limit.data["limit"],
-            *(each.levels for each in pinned),
+            self.production.data["low"],
+            self.production.data["high"],
+            *(each.levels for each in (*pinned, *measured)),
             LEAST_LEVELS,
         ]
         every = np.concatenate(seen)
@@ -252,12 +326,44 @@ class InsertionGainFigure:
         self._limited = limit is not None
         self.limit.data = _limit_columns(NO_LEVELS if limit is None else limit, levels)
 
+    def _show_production(self, production):
+        if production is None and not len(self.production.data["low"]):
+            return
+        if production is not None and not self._production_drawn:
+            self._draw_production()
+        self.production.data = (
+            NO_PRODUCTION
+            if production is None
+            else {"centre": tig.BAND_CENTRES, "low": production[0], "high": production[1]}
+        )
+
     def _show_pinned(self, pinned):
         if are_the_same(pinned, self._drawn):
             return
         self._drawn = pinned
         self.pins.data = pin_columns([each.levels for each in pinned])
         self._pinned.show(pinned)
+
+    def _show_measured(self, measured):
+        if are_the_same(measured, self._measured):
+            return
+        self._measured = measured
+        self.measured.data = _measured_columns(measured)
+        for place in range(len(self._points), len(measured)):
+            self._points.append(
+                self.model.scatter(
+                    x="centre",
+                    y=f"curve_{place}",
+                    source=self.measured,
+                    marker=MEASURED_MARKERS[place],
+                    size=theme.DOT_SIZE + 2,
+                    line_color=theme.THEORY,
+                    line_width=2,
+                    fill_color=None,
+                )
+            )
+        for place, points in enumerate(self._points):
+            points.visible = place < len(measured)
 
     def _name_on_hover(self, pinned, alone):
         """Say what is drawn when the pointer rests on a band."""
@@ -272,20 +378,42 @@ class InsertionGainFigure:
         drawn = [
             (self._line.visible, THIS_DESIGN),
             (np.isfinite(data["preset"]).any(), AS_IN_TABLE_1),
+            (len(self.production.data["low"]) > 0, PRODUCTION),
             (np.isfinite(limit["limit"]).any(), REQUIRED),
             (np.isfinite(limit["failing"]).any(), EXCEEDS),
+            (bool(self._beyond), EXTRAPOLATED),
         ]
-        self.legend.show([*(entry for there, entry in drawn if there), *map(pinned_entry, pinned)])
+        points = zip(self._measured, MEASURED_MARKERS, strict=False)
+        self.legend.show(
+            [
+                *(entry for there, entry in drawn if there),
+                *map(pinned_entry, pinned),
+                *((f"{MEASURED} {each.name}", point_svg(shape, theme.THEORY)) for each, shape in points),
+            ]
+        )
 
 
 THIS_DESIGN = ("this design", swatch_svg(theme.THIS_DESIGN, dot=True))
 AS_IN_TABLE_1 = ("as in Table 1", swatch_svg(theme.PRESET_GHOST, theme.SECOND_DASH))
+PRODUCTION = ("5 to 95 % of production", swatch_svg(theme.THIS_DESIGN, (2, 2)))
 REQUIRED, EXCEEDS = ("required maximum", limit_svg()), ("exceeds it", excess_svg())
+EXTRAPOLATED = ("beyond what was measured of this design", extrapolated_svg())
 """What the legend says beside the names of pinned designs."""
+
+HIGHER_THAN_ANY = 1e3
+"""A level that no axis reaches [dB]."""
+
+MEASURED = "measured:"
+"""What the legend says before the name of a curve from elsewhere, so that nobody takes it for a limit."""
+
+MEASURED_MARKERS = tuple(MARKERS)
+"""Markers of curves from elsewhere, in their order."""
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
 
 NO_LEVELS.flags.writeable = False
+
+NO_PRODUCTION = {"centre": [], "low": [], "high": []}
 
 ALONE_TOOLTIPS = [("band", "@label Hz")]
 
@@ -315,6 +443,12 @@ def pin_columns(levels):
     missing = theme.MOST_PINNED - len(levels)
     columns = {f"pin_{place}": each for place, each in enumerate([*levels, *[NO_LEVELS] * missing])}
     return {"label": list(tig.BAND_LABELS), "centre": tig.BAND_CENTRES, **columns}
+
+
+def _measured_columns(measured):
+    missing = len(MEASURED_MARKERS) - len(measured)
+    levels = [*(each.levels for each in measured), *[NO_LEVELS] * missing]
+    return {"centre": tig.BAND_CENTRES} | {f"curve_{place}": each for place, each in enumerate(levels)}
 
 
 def _limit_columns(limit, levels):

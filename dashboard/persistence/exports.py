@@ -6,12 +6,14 @@ the ground: kN over time [s], which is held once. Comma-separated, decimal point
 
 import csv
 import io
+import json
 import re
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 import trackig_core as tig
+from dashboard import formats
 
 SAME_TIME = 1e-9
 """Difference of two times that are the same [s]."""
@@ -36,7 +38,17 @@ def gain_csv(results, heading):
     results = list(results)
     header = ["frequency_hz", *(f"insertion_gain_db {each.name}" for each in results)]
     columns = [tig.BAND_LABELS, *([f"{level:.4f}" for level in each.levels] for each in results)]
-    return _written(heading.lines, header, zip(*columns, strict=True))
+    statics = (static_remark(each) for each in results if each.statics is not None)
+    return _written([*heading.lines, *statics], header, zip(*columns, strict=True))
+
+
+def static_remark(result):
+    """Return how far the rail sinks with a design, in words (DesignResult, which has statics)."""
+    statics = result.statics
+    return (
+        f"rail deflection {formats.deflection_text(statics)}, seat load "
+        f"{formats.load_text(statics.largest_seat_load)} under {formats.wheels_text(statics)}: {result.name}"
+    )
 
 
 def force_csv(results, heading):
@@ -72,6 +84,92 @@ def force_csv(results, heading):
     remarks = [f"interpolated to the times of the longest record: {name}" for name in interpolated]
     return _written([*heading.lines, FORCE_REMARK, *remarks], header, zip(*columns, strict=True))
 
+
+def answer_csv(answer, result, heading):
+    """Return all figures of an answer as CSV.
+
+    Parameters
+    ----------
+    answer : trackig_core.decide.Answer
+        The answer.
+    result : object
+        What it was made of: anything with ``to_dataframe``.
+    heading : Heading
+        What the file says of itself; its design is that of the question.
+
+    Returns
+    -------
+    str
+        Columns as the library names them, in SI units, below the question, its answer in a sentence, and what
+        is needed to obtain it again: every setting, versions, and the digest of all figures.
+    """
+    question = answer.question
+    remarks = [
+        *heading.lines,
+        f"question: {question.kind}, {json.dumps(question.settings)}",
+        f"asked of: {question.design!r}",
+        f"answer: {answer.sentence}",
+        f"versions: {', '.join(' '.join(each) for each in answer.versions.items())}",
+        f"digest: {answer.digest}",
+    ]
+    table = result.to_dataframe()
+    return _written(remarks, table.columns, table.itertuples(index=False, name=None))
+
+
+def point_response_csv(responses, heading):
+    """Return point receptance over frequency as CSV.
+
+    Parameters
+    ----------
+    responses : iterable of (str, trackig_core.analysis.TrackResponse)
+        Name and response of each design, all over the same frequencies.
+    heading : Heading
+        What the file says of itself.
+
+    Returns
+    -------
+    str
+        A column ``frequency_hz``, and per design real and imaginary part of the receptance over a support and
+        half-way between two, m/N, to six figures.
+    """
+    responses = list(responses)
+    header, columns = ["frequency_hz"], [[f"{each:.6g}" for each in responses[0][1].frequency]]
+    for name, response in responses:
+        for place in ("support", "midspan"):
+            receptance = getattr(response, place)
+            for part in ("real", "imag"):
+                header.append(f"receptance_{place}_{part}_m_per_N {name}")
+                columns.append([f"{each:.6g}" for each in getattr(receptance, part)])
+    return _written([*heading.track_lines, RESPONSE_REMARK], header, zip(*columns, strict=True))
+
+
+def decay_rate_csv(responses, heading):
+    """Return track decay rate per band as CSV.
+
+    Parameters
+    ----------
+    responses : iterable of (str, trackig_core.analysis.TrackResponse)
+        Name and response of each design.
+    heading : Heading
+        What the file says of itself.
+
+    Returns
+    -------
+    str
+        A column of bands, ``frequency_hz``, and per design three columns, dB/m with four decimals: the sum of
+        EN 15461 over a support and half-way between two, and the rate of the longest-lived wave.
+    """
+    responses = list(responses)
+    header, columns = ["frequency_hz"], [responses[0][1].bands.labels]
+    for name, response in responses:
+        for field in ("support_decay_rate", "midspan_decay_rate", "longest_wave"):
+            header.append(f"{field}_db_per_m {name}")
+            columns.append([f"{each:.4f}" for each in getattr(response, field)])
+    return _written([*heading.track_lines, DECAY_REMARK], header, zip(*columns, strict=True))
+
+
+RESPONSE_REMARK = "point receptance of the rail, the wheel away, 24 elements a bay"
+DECAY_REMARK = f"track decay rate, the sum of EN 15461:2008+A1:2010 carried to infinity; {RESPONSE_REMARK}"
 
 FORCE_REMARK = "force into the ground after a sudden squeeze of the contact spring, low-passed at 600 Hz"
 

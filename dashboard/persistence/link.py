@@ -1,10 +1,12 @@
 """The address bar's codec: the whole design, how it is looked at and what is pinned, as a query string.
 
 All of a design is written, defaults too, so that a link reopens the same design in versions whose
-defaults are others. Numbers have six significant figures, as inputs have, in display units.
+defaults are others. Numbers have six significant figures, as inputs have, in display units; those that no
+slider shows have as many as they need. Curves, rails of one's own and numbers that the sidebar does not have
+are too much for an address: the link says that they are in the study's file.
 
-A link is hostile: whatever it holds, decoding raises nothing and gives designs that the sliders can show;
-what was ignored or clamped is said in words that repeat nothing but numbers and the letters of a key.
+A link is hostile: whatever it holds, decoding raises nothing and gives designs that can be solved; what was
+ignored or clamped is said in words that repeat nothing but numbers and the letters of a key.
 """
 
 import math
@@ -13,12 +15,23 @@ from dataclasses import dataclass
 from urllib.parse import urlencode
 
 import trackig_core as tig
-from dashboard.fields import FIELDS, INPUTS, NUMBERS, OPENING_PRESET, six_figures
+from dashboard.fields import (
+    EVERY_FIELD,
+    EXTRA_FIELDS,
+    EXTRAS,
+    FIELDS,
+    LOAD,
+    NUMBERS,
+    OPENING_PRESET,
+    SHOWN,
+)
 from dashboard.formats import name_text, quantity_text
 from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
 from dashboard.session.pins import free_colour, free_name
+from dashboard.session.special import DEFAULTS, is_curve, is_on_slider, on_slider, special_values
 from dashboard.theme import MOST_PINNED
 from trackig_core.names import LONGEST_NAME
+from trackig_core.track.fields import RANGES
 
 VERSION = "1"
 """Version of the format; a link of another version is read as far as its keys are known."""
@@ -32,7 +45,15 @@ MOST_PROBLEMS = 6
 SEPARATOR = "~"
 """Stands between the parts of a pin; the name comes last, so that it may hold it."""
 
+FILE = "file"
+"""Key of what a link cannot hold: fields of the current design, and pins as :data:`PINS`."""
+
+PINS = "pins"
+
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+
+EXTRA_SEPARATOR, EXTRA_SIGN = ";", "="
+"""Between the extra numbers of a pin, and between name and number."""
 
 CHOICES = {
     "preset": tuple(DesignInputs.param.preset.objects),
@@ -55,7 +76,7 @@ class Link:
     Attributes
     ----------
     values : dict
-        All inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
+        All inputs, by name of :data:`dashboard.fields.INPUTS` [display units], special ones in SI units.
     view : dict
         Choices of view that the link makes, by key.
     pins : tuple of trackig_core.PinnedDesign
@@ -83,7 +104,7 @@ def encode(values, view=None, pins=(), base=None):
     view : mapping, optional
         Choices of view by key, such as those of :data:`VIEW_CHOICES`.
     pins : iterable of trackig_core.PinnedDesign
-        Pinned designs that sliders can show.
+        Pinned designs; those of which a link cannot hold all are left out.
     base : int, optional
         Number of the pin from which differences are taken, counted from 0.
 
@@ -92,11 +113,56 @@ def encode(values, view=None, pins=(), base=None):
     str
         Letters, digits and signs that an address may hold; some 300 characters, and 100 to 600 a pin.
     """
-    pairs = [("v", VERSION), *((name, _text(values[name])) for name in INPUTS), *(view or {}).items()]
-    pairs += [("pin", _pin_text(pin)) for pin in pins]
-    if base is not None:
-        pairs.append(("base", str(base + 1)))
+    pins = tuple(pins)
+    held = [pin for pin in pins if not _too_much(special_values(pin.design))]
+    missing = [*_too_much(values.get("special", {})), *([PINS] if len(held) < len(pins) else [])]
+    pairs = [("v", VERSION), *zip(SHOWN, _texts(values), strict=True)]
+    pairs += [*_extras(values).items(), *(view or {}).items()]
+    pairs += [("pin", _pin_text(pin)) for pin in held]
+    if base is not None and pins[base] in held:
+        pairs.append(("base", str(held.index(pins[base]) + 1)))
+    if missing:
+        pairs.append((FILE, ",".join(missing)))
     return urlencode(pairs)
+
+
+def _too_much(special):
+    """Return the fields of special inputs that an address cannot hold."""
+    return [name for name, value in special.items() if name not in NUMBERS or is_curve(value)]
+
+
+def left_out(values, pins=()):
+    """Return what a link leaves out, in words; empty if it holds everything.
+
+    Parameters
+    ----------
+    values : mapping
+        All inputs, by name of :data:`dashboard.fields.INPUTS` [display units].
+    pins : iterable of trackig_core.PinnedDesign
+        Pinned designs.
+
+    Returns
+    -------
+    str
+        Labels of inputs, and names of pinned designs.
+    """
+    labels = [_label(name).lower() for name in _too_much(values["special"])]
+    names = [f"“{pin.name}”" for pin in pins if _too_much(special_values(pin.design))]
+    return ", ".join([*labels, *names])
+
+
+def _texts(values):
+    """Return inputs as texts, in the order of :data:`dashboard.fields.SHOWN`."""
+    special = values.get("special", {})
+    for name in SHOWN:
+        exact = special.get(name)
+        yield repr(exact / FIELDS[name].factor) if isinstance(exact, float) else _text(values[name])
+
+
+def _extras(values):
+    """Return the texts of the extra numbers that are set, by name."""
+    given = {name: values.get(name, EXTRA_FIELDS[name].default) for name in EXTRAS}
+    return {name: _text(value) for name, value in given.items() if value != EXTRA_FIELDS[name].default}
 
 
 def _text(value):
@@ -107,10 +173,10 @@ def _text(value):
 
 def _pin_text(pin):
     # the format has a place for every input: those that a single-stage track lacks are as its preset opens
-    preset = pin.preset or OPENING_PRESET
-    values = preset_values(preset) | values_of(pin.design)
-    texts = (_text(values[name]) for name in INPUTS)
-    return SEPARATOR.join((str(pin.colour), str(int(pin.shown)), *texts, pin.name))
+    values = preset_values(pin.preset or OPENING_PRESET) | values_of(pin.design)
+    extras = (EXTRA_SIGN.join(each) for each in _extras(values).items() if each[0] not in LOAD)
+    shown = EXTRA_SEPARATOR.join((str(int(pin.shown)), *extras))
+    return SEPARATOR.join((str(pin.colour), shown, *_texts(values), pin.name))
 
 
 def decode(arguments, view_choices=VIEW_CHOICES):
@@ -126,9 +192,9 @@ def decode(arguments, view_choices=VIEW_CHOICES):
     Returns
     -------
     Link
-        A design that the sliders can show, and words on what could not be read.
+        A design that can be solved, and words on what could not be read.
     """
-    known = ("v", "pin", "base", *INPUTS, *view_choices)
+    known = ("v", "pin", "base", FILE, *SHOWN, *EXTRAS, *view_choices)
     problems = [
         f"“{_key_text(key)}” is nothing that a link can set; it was ignored."
         for key in arguments
@@ -137,6 +203,7 @@ def decode(arguments, view_choices=VIEW_CHOICES):
     given = {key: _first(arguments, key, problems) for key in known if arguments.get(key) and key != "pin"}
     if given.get("v", VERSION) != VERSION:
         problems.append("The link is of another version of trackig; what this one knows was opened.")
+    problems += _in_the_file(given.get(FILE, ""))
     values = _values(given, "", problems)
     view = {
         key: given[key]
@@ -155,10 +222,24 @@ def _key_text(key):
 
 def _label(name):
     """Return what an input or a choice is called on the page, without its unit."""
-    if name in FIELDS:
-        return FIELDS[name].label
-    label = DesignInputs.param[name].label if name in INPUTS else name.capitalize()
+    if name in EVERY_FIELD:
+        return EVERY_FIELD[name].label
+    label = DesignInputs.param[name].label if name in SHOWN else name.replace("_", " ").capitalize()
     return label.split(":")[0]
+
+
+def _in_the_file(text):
+    """Return words on what a link says that it left out."""
+    names = text.split(",")
+    fields = [_label(name) for name in (*NUMBERS, "rail", *DEFAULTS) if name in names]
+    if fields:
+        more = f" and {len(fields) - 2} more" if len(fields) > 2 else ""
+        yield (
+            f"{', '.join(fields[:2])}{more}: the link cannot hold it and needs the study file; "
+            "the sliders stand in."
+        )
+    if PINS in names:
+        yield "Pinned designs with curves or rails of their own are missing: they are in the study file."
 
 
 def _decoded(raw):
@@ -193,10 +274,16 @@ def _values(given, whose, problems):
     if "two_stage" in read:
         read["two_stage"] = read["two_stage"] == "1"
     values = preset_values(read.get("preset", DesignInputs.param.preset.default)) | read
-    for name in NUMBERS:
-        if name in given:
-            values[name] = _number(name, given[name], values[name], whose, problems)
-    return values
+    numbers = {
+        name: _number(name, given[name], values[name], whose, problems) for name in NUMBERS if name in given
+    }
+    exact = {name: float(f"{value * FIELDS[name].factor:.15g}") for name, value in numbers.items()}
+    special = {name: value for name, value in exact.items() if not is_on_slider(name, value)}
+    shown = {name: on_slider(name, value) for name, value in exact.items()}
+    extras = {
+        name: _number(name, given[name], values[name], whose, problems) for name in EXTRAS if name in given
+    }
+    return {**values, **shown, **extras, "special": special}
 
 
 def _is_allowed(name, text, allowed, whose, problems):
@@ -207,10 +294,14 @@ def _is_allowed(name, text, allowed, whose, problems):
 
 
 def _number(name, text, otherwise, whose, problems):
-    """Return a number within its slider's range."""
-    low, high = FIELDS[name].low, FIELDS[name].high
+    """Return a number within the range of what can be solved, an extra one within its slider's range."""
+    if name in EXTRA_FIELDS:
+        low, high = EXTRA_FIELDS[name].low, EXTRA_FIELDS[name].high
+    else:
+        low, high = (end / FIELDS[name].factor for end in RANGES[name][:2])
     if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
-        problems.append(f"{whose}{_label(name)} is no number; {quantity_text(otherwise)} was taken.")
+        taken = "it was ignored" if otherwise is None else f"{quantity_text(otherwise)} was taken"
+        problems.append(f"{whose}{_label(name)} is no number; {taken}.")
         return otherwise
     number = float(text)
     clamped = min(max(number, low), high)
@@ -220,7 +311,7 @@ def _number(name, text, otherwise, whose, problems):
             f"{whose}{_label(name)} is {size}, beyond {quantity_text(low)} to {quantity_text(high)}; "
             f"{quantity_text(clamped)} was taken."
         )
-    return six_figures(clamped)
+    return clamped
 
 
 def _pins(raws, problems):
@@ -238,12 +329,15 @@ def _pins(raws, problems):
 
 def _pin(text, before, whose, problems):
     """Return a pin, or None if it cannot be read; its name and colour differ from those before it."""
-    parts = text.split(SEPARATOR, len(INPUTS) + 2)
-    given = dict(zip(INPUTS, parts[2:], strict=False))
-    if len(parts) != len(INPUTS) + 3 or any(given[key] not in allowed for key, allowed in CHOICES.items()):
+    parts = text.split(SEPARATOR, len(SHOWN) + 2)
+    given = dict(zip(SHOWN, parts[2:], strict=False))
+    if len(parts) != len(SHOWN) + 3 or any(given[key] not in allowed for key, allowed in CHOICES.items()):
         problems.append(f"{whose}it cannot be read; it was ignored.")
         return None
-    colour, shown, *_, name = parts
+    colour, settings, *_, name = parts
+    shown, *extras = settings.split(EXTRA_SEPARATOR)
+    extra = dict(each.partition(EXTRA_SIGN)[::2] for each in extras)
+    given |= {key: each for key, each in extra.items() if key in EXTRAS and key not in LOAD}
     taken = {pin.colour for pin in before}
     free = {str(index): index for index in range(MOST_PINNED) if index not in taken}
     values = _values(given, whose, problems)

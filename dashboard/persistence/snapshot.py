@@ -6,7 +6,9 @@ What is opened is checked as a whole before anything changes, and then replaces 
 import param
 
 import trackig_core as tig
+from dashboard.fields import INPUTS
 from dashboard.persistence import link, studies
+from dashboard.session.answers import Answers
 from dashboard.session.steps import Steps
 
 
@@ -30,6 +32,8 @@ class SessionSnapshot(param.Parameterized):
     ----------
     steps : Steps
         What of it can be undone.
+    answers : Answers
+        Questions that were asked, and what came out.
     """
 
     tab = param.Selector(objects=[""], doc="The tab that is open.")
@@ -38,15 +42,17 @@ class SessionSnapshot(param.Parameterized):
         super().__init__()
         self.inputs, self.definition, self.pins, self.assessment = inputs, definition, pins, assessment
         self.steps = Steps(inputs, definition, pins, assessment)
+        self.answers = Answers()
         self.param.tab.objects = list(tabs)
         self.tab = self.param.tab.objects[0]
 
     def watch(self, callback):
         """Call back whenever anything changes that is kept."""
-        self.inputs.param.watch(callback, list(link.INPUTS))
+        self.inputs.param.watch(callback, list(INPUTS))
         self.definition.param.watch(callback, ["summation", "reference"])
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
-        self.assessment.param.watch(callback, ["specification", "source", "title"])
+        self.assessment.param.watch(callback, ["specification", "source", "measured", "title"])
+        self.answers.param.watch(callback, "kept")
         self.param.watch(callback, "tab")
 
     @property
@@ -64,6 +70,11 @@ class SessionSnapshot(param.Parameterized):
         view = {**self._view, "alone": str(int(self.pins.alone)), "tab": self.tab}
         return link.encode(self.inputs.to_values(), view, self.pins.pinned, self._base)
 
+    @property
+    def left_out(self):
+        """What a link to the designs on the page leaves out, in words; empty if it holds them all."""
+        return link.left_out(self.inputs.to_values(), self.pins.pinned)
+
     def study(self):
         """Return everything as a study (trackig_core.Study)."""
         return studies.to_study(
@@ -74,6 +85,8 @@ class SessionSnapshot(param.Parameterized):
             self.assessment.specification,
             self.assessment.source,
             self.assessment.title,
+            self.assessment.measured,
+            self.answers.kept,
         )
 
     def follow(self, arguments):
@@ -116,8 +129,12 @@ class SessionSnapshot(param.Parameterized):
         with self.steps.as_one():
             self._set(opened.values, opened.pins, opened.base, opened.view)
             self.assessment.param.update(
-                specification=opened.specification, source=opened.source, title=opened.name
+                specification=opened.specification,
+                source=opened.source,
+                measured=opened.measured,
+                title=opened.name,
             )
+        self.answers.replace_all(opened.answers)
 
     def _set(self, values, pins, base, view):
         self.pins.replace_all(pins, base)

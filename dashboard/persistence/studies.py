@@ -1,18 +1,16 @@
 """What the dashboard holds, as a study, and a study as what the dashboard holds.
 
 A study may hold more than sliders show: rails of one's own, springs as measured, numbers beyond a slider or
-of more figures. Numbers of sliders are in display units, those of a study in SI units.
-
-Nothing is rounded, clamped or dropped. A study that sliders cannot show exactly is refused as a whole, in
-words that name the design, the value and what sliders take; and what was saved opens as it was.
+of more figures. These are special inputs. Numbers of sliders are in display units, those of a study in SI
+units. Nothing is rounded, clamped or dropped: what was saved opens as it was.
 """
 
 from dataclasses import dataclass, replace
 
 import trackig_core as tig
-from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
+from dashboard.fields import LOAD, OPENING_PRESET, to_display, to_si
 from dashboard.formats import quantity_text
-from dashboard.session.inputs import DesignInputs, design_of, preset_values, values_of
+from dashboard.session.inputs import DesignInputs, design_of, load_of, preset_values, values_of
 from dashboard.session.pins import current_design, distinct_colours
 from dashboard.theme import MOST_PINNED
 
@@ -37,6 +35,10 @@ class Opened:
         Levels on the reference track.
     name : str
         What the study is called.
+    measured : tuple of trackig_core.levels.MeasuredGain
+        Insertion gain from elsewhere.
+    answers : tuple of trackig_core.decide.Answer
+        Questions that were asked, and what came out.
     """
 
     values: dict
@@ -46,9 +48,21 @@ class Opened:
     specification: tig.Specification | None
     source: tig.SourceSpectrum | None
     name: str
+    measured: tuple[tig.levels.MeasuredGain, ...] = ()
+    answers: tuple[tig.decide.Answer, ...] = ()
 
 
-def to_study(values, view=None, pins=(), base=None, specification=None, source=None, name=tig.Study.name):
+def to_study(
+    values,
+    view=None,
+    pins=(),
+    base=None,
+    specification=None,
+    source=None,
+    name=tig.Study.name,
+    measured=(),
+    answers=(),
+):
     """Return a study of what the dashboard holds.
 
     Parameters
@@ -67,6 +81,10 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         Levels on the reference track.
     name : str
         What the study is called.
+    measured : iterable of trackig_core.levels.MeasuredGain
+        Insertion gain from elsewhere.
+    answers : iterable of trackig_core.decide.Answer
+        Questions that were asked, and what came out.
 
     Returns
     -------
@@ -88,6 +106,9 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         view=tig.View(**(view or {}), base=base),
         name=name,
         preset=values["preset"],
+        load=load_of(values),
+        measured=measured,
+        answers=answers,
     )
 
 
@@ -103,27 +124,36 @@ def from_study(study):
     Returns
     -------
     Opened
-        Values that sliders take, and that give exactly the study's designs.
+        Values that inputs take, and that give exactly the study's designs.
 
     Raises
     ------
     trackig_core.StudyError
-        If sliders cannot show one of the designs, or two pinned designs have one name.
+        If there are more pinned designs than the page shows, or two of them have one name.
     """
     if len(study.pinned) > MOST_PINNED:
         raise tig.StudyError(f"{len(study.pinned)} designs: the page shows at most {MOST_PINNED}", "pinned")
     current = current_design(study.design, study.preset)
-    _check(current.design, current.name, "design")
     preset = _preset(current)
     return Opened(
-        values=preset_values(preset) | values_of(study.design, preset),
+        values=preset_values(preset) | values_of(study.design, preset) | _load(study.load),
         pins=_pins(study.pinned),
         base=study.view.base,
         view={"summation": study.view.summation, "reference": study.view.reference},
         specification=study.specification,
         source=study.source,
         name=study.name,
+        measured=study.measured,
+        answers=study.answers,
     )
+
+
+def _load(load):
+    """Return the wheels that stand on the track as inputs, or raise a StudyError."""
+    for name in LOAD:
+        if getattr(load, name) is not None:
+            _check_number(load, name, "the study", "load")
+    return {name: to_display(name, getattr(load, name)) for name in LOAD}
 
 
 def _pins(pinned):
@@ -133,7 +163,6 @@ def _pins(pinned):
         path = f"pinned[{number}]"
         if any(each.name == other.name for other in pinned[:number]):
             raise tig.StudyError(f"two designs are called “{each.name}”; give each its own", f"{path}.name")
-        _check(each.design, f"“{each.name}”", f"{path}.design")
     return tuple(
         replace(each, colour=colour, preset=_preset(each))
         for each, colour in zip(pinned, colours, strict=True)
@@ -146,22 +175,10 @@ def _preset(pinned):
     return pinned.preset or next(same, OPENING_PRESET)
 
 
-def _check(design, whose, path):
-    """Raise a StudyError that names a design and the path to it unless sliders show it exactly."""
-    if design.rail not in tig.RAILS.values():
-        known = ", ".join(tig.RAILS)
-        raise _refused(whose, path, "rail", f"{design.rail.name!r}, of its own values", known)
-    for field in NUMBERS:
-        if design.two_stage or field not in SECOND_STAGE:
-            _check_number(design, field, whose, path)
-
-
-def _check_number(design, field, whose, path):
-    """Raise a StudyError unless a slider shows a number of a design exactly."""
-    value, (low, high) = getattr(design, field), DesignInputs.param[field].bounds
+def _check_number(load, field, whose, path):
+    """Raise a StudyError unless a slider shows a number of the standing wheels exactly."""
+    value, (low, high) = getattr(load, field), DesignInputs.param[field].bounds
     takes = f"one number from {quantity_text(low)} to {quantity_text(high)}"
-    if not isinstance(value, float):
-        raise _refused(whose, path, field, "measured over frequency", takes)
     shown = to_display(field, value)
     if not low <= shown <= high:
         raise _refused(whose, path, field, quantity_text(shown), takes)

@@ -38,17 +38,17 @@ DRAWING = threading.Lock()
 def gain_svg(results, specification, height=3.5):
     """Return insertion gain of results over the bands as a drawing (SVG), of a height [inch]."""
     with DRAWING:
-        figure, axes = _blank(height)
+        figure, axes = blank(height)
         draw_gain(axes, results, specification)
-        return _svg(figure, "gain")
+        return svg(figure, "gain")
 
 
 def difference_svg(results, base):
     """Return the differences of insertion gain from a base as a drawing (SVG)."""
     with DRAWING:
-        figure, axes = _blank(2.5)
+        figure, axes = blank(2.5)
         draw_difference(axes, results, base)
-        return _svg(figure, "difference")
+        return svg(figure, "difference")
 
 
 def force_svg(results):
@@ -57,9 +57,9 @@ def force_svg(results):
     if not stepped:
         return None
     with DRAWING:
-        figure, axes = _blank(2.6)
+        figure, axes = blank(2.6)
         draw_force(axes, stepped)
-        return _svg(figure, "force")
+        return svg(figure, "force")
 
 
 def stepped_in_time(results):
@@ -67,7 +67,7 @@ def stepped_in_time(results):
     return [each for each in results if each.summary.time is not None]
 
 
-def _blank(height):
+def blank(height):
     """Return a figure of a given height [inch], and its axes."""
     figure = Figure(figsize=(PLOT_WIDTH, height), layout="constrained", facecolor="none")
     FigureCanvasSVG(figure)
@@ -86,7 +86,7 @@ def _dress(axes, x, y):
     axes.axhline(0, color=theme.REPORT_FAINT, linewidth=1)
 
 
-def _dress_bands(axes, label):
+def dress_bands(axes, label):
     """Put the bands along the axis."""
     axes.set_xscale("log")
     axes.set_xlim(tig.BAND_EDGES[0], tig.BAND_EDGES[-1])
@@ -119,7 +119,7 @@ def draw_gain(axes, results, specification):
     list of matplotlib.lines.Line2D
         The curve of each result, in their order.
     """
-    _dress_bands(axes, "Insertion gain, dB")
+    dress_bands(axes, "Insertion gain, dB")
     lines = [
         _curve(axes, tig.BAND_CENTRES, each.levels, each, marker="o", markersize=3.5)
         for each in reversed(results)
@@ -163,7 +163,7 @@ def _mark_failing(axes, results):
 
 def draw_difference(axes, results, base):
     """Draw insertion gain less that of a base, as :func:`draw_gain` does; return the curves."""
-    _dress_bands(axes, "Difference, dB")
+    dress_bands(axes, "Difference, dB")
     differences = [each.levels - base.levels for each in results]
     lines = [
         _curve(axes, tig.BAND_CENTRES, difference, each, marker="o", markersize=3)
@@ -205,7 +205,7 @@ def beyond_texts(results):
     return [formats.beyond_text(total.min(), total.max(), *ends) for total in totals]
 
 
-def _svg(figure, name):
+def svg(figure, name):
     """Return a figure as SVG for a page; its identifiers begin with its name, since a page has several."""
     file = io.StringIO()
     nothing = dict.fromkeys(("Creator", "Date", "Format", "Type"))

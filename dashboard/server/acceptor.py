@@ -62,13 +62,15 @@ class Acceptor(threading.Thread):
         for listener in self._listeners:
             self._selector.register(listener, selectors.EVENT_READ)
         while not self._stopping.is_set():
+            is_waiting = False
             ready = [key.fileobj for key, _ in self._selector.select(timeout=0.2)]
             for each in ready:
                 if each not in self._listeners:
-                    self._look(each)
+                    is_waiting |= self._look(each)
                 elif self._is_our_turn():
                     self._accept(each)
-            if ready and not self._is_our_turn():
+            # what is only looked at stays to be read, and would have this thread look without a pause
+            if is_waiting or (ready and not self._is_our_turn()):
                 self._stopping.wait(PAUSE)
             self._close_silent()
         for connection in list(self._silent):
@@ -86,11 +88,11 @@ class Acceptor(threading.Thread):
             self._selector.register(connection, selectors.EVENT_READ)
 
     def _look(self, connection):
-        """Hand a connection on, or answer it, as soon as it tells."""
+        """Hand a connection on, or answer it; return whether it has yet to say which."""
         try:
             begun = connection.recv(max(map(len, self._questions)) + 1, socket.MSG_PEEK)
         except BlockingIOError:
-            return
+            return False
         except OSError:
             begun = b""
         if not begun:
@@ -103,6 +105,7 @@ class Acceptor(threading.Thread):
             _, address = self._silent.pop(connection)
             self._selector.unregister(connection)
             self._hand_on(connection, address)
+        return connection in self._silent
 
     def _answer(self, connection, head_only):
         text = self._health()

@@ -4,6 +4,7 @@ The login is Panel's: a name, which is not checked, and one password for all. It
 TLS, which a proxy in front can give, whoever listens on the network reads the password.
 """
 
+import asyncio
 import contextlib
 import json
 import logging
@@ -12,6 +13,7 @@ import sys
 import time
 from collections import deque
 from pathlib import Path
+from traceback import extract_tb
 from urllib.parse import urlsplit
 
 import tornado.web
@@ -23,19 +25,22 @@ from bokeh.server.util import check_allowlist
 from panel.auth import BasicAuthProvider
 from panel.config import config
 from panel.io.application import build_single_handler_application
+from panel.io.document import dispatch_tornado
 from panel.io.resources import DIST_DIR
 from panel.io.server import INDEX_HTML, WSHandler, get_static_routes
 from panel.io.state import state
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.iostream import IOStream
+from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
 from dashboard.server import sessions
 from dashboard.server.acceptor import HEALTH, Acceptor
 from dashboard.server.command import PAGE
+from dashboard.server.gathering import GatheringStream
 
 DASHBOARD = Path(__file__).parent.parent
+LIBRARY = Path(tig.__file__).parent
 LOGIN = Path(__file__).parent / "templates" / "login.html"
 
 BEAT = 0.5
@@ -54,8 +59,11 @@ EXPECTED = ("PULL-DOC-REQ", "PATCH-DOC", "SERVER-INFO-REQ")
 MOST_FAULTS = 20
 """Messages that cannot be followed after which a connection is closed."""
 
-LONGEST_LOGGED = 500
+LONGEST_LOGGED = 200
 """Characters of a message that are logged."""
+
+HANDLERS, SOCKETS, BAD_HEADERS = "bokeh.server.protocol_handler", "bokeh.server.views.ws", "bokeh.protocol"
+"""Loggers that say what is wrong with a message."""
 
 
 class SocketHandler(WSHandler):
@@ -76,6 +84,17 @@ class SocketHandler(WSHandler):
         _say(f"a page of {shown or 'no host'} was refused; if it is yours, add --allow-origin {shown}")
         return False
 
+    def open(self):
+        """Have the frames of each message sent in one go, and at once."""
+        self.ws_connection.stream.gathers = True
+        self.set_nodelay(True)
+        return super().open()
+
+    async def on_message(self, fragment):
+        """Take what a page sends, but nothing after what it was cut off for."""
+        if self.ws_connection is not None and not self.ws_connection.is_closing():
+            await super().on_message(fragment)
+
     async def _handle(self, message):
         if message.msgtype not in EXPECTED:
             self._protocol_error(f"{message.msgtype[:40]} is nothing that a page sends")
@@ -83,25 +102,46 @@ class SocketHandler(WSHandler):
         return await super()._handle(message)
 
     async def send_message(self, message):
-        """Send a message; one that says that something failed counts."""
+        """Send a message whole, as Panel sends pictures; one that says that something failed counts.
+
+        Bokeh waits after each of its frames; those of a picture could get between them.
+        """
         if message.msgtype == "ERROR":
             message.content["traceback"] = None
             self._faults += 1
-        await super().send_message(message)
+        # whoever has left needs no answer
+        with contextlib.suppress(WebSocketClosedError):
+            await asyncio.gather(*dispatch_tornado(self.connection, msg=message))
         if self._faults > MOST_FAULTS:
             self._protocol_error("too many messages that cannot be followed")
 
 
 def shorten(record):
-    """Cut what is logged of a message (a filter of log records)."""
-    if isinstance(record.args, tuple):
-        record.args = tuple(map(_short, record.args))
+    """Leave one short line of what is logged of a message from a page (a filter of log records).
+
+    Whoever sends what cannot be followed fills the log with tracebacks else. Errors of ours keep theirs.
+    """
+    error = record.exc_info[1] if record.exc_info else None
+    if is_ours(error):
+        return True
+    if record.name == BAD_HEADERS or (error is not None and record.name == SOCKETS):
+        # that the connection is closed, and why, is a line of its own
+        return False
+    text = record.getMessage() if error is None else f"a message was refused: {error!r}"
+    text = " ".join(text.split())
+    record.msg = text if len(text) <= LONGEST_LOGGED else f"{text[:LONGEST_LOGGED]}…"
+    record.args = record.exc_info = record.exc_text = None
     return True
 
 
-def _short(value):
-    text = repr(value)
-    return value if len(text) <= LONGEST_LOGGED else f"{text[:LONGEST_LOGGED]}…"
+def is_ours(error):
+    """Return whether an exception passed through code of the dashboard or its library."""
+    files = [] if error is None else [Path(frame.filename) for frame in extract_tb(error.__traceback__)]
+    return any(
+        each.is_relative_to(place) and not each.is_relative_to(DASHBOARD / "server")
+        for each in files
+        for place in (DASHBOARD, LIBRARY)
+    )
 
 
 class HealthHandler(tornado.web.RequestHandler):
@@ -162,7 +202,7 @@ def run(site, listeners, shares, number, secret, announce):
             }
         )
 
-    for name in ("bokeh.server.protocol_handler", "bokeh.server.views.ws"):
+    for name in (HANDLERS, SOCKETS, BAD_HEADERS):
         logging.getLogger(name).addFilter(shorten)
     loop = IOLoop.current()
     http, server = _server(site, secret, health, loop)
@@ -173,7 +213,7 @@ def run(site, listeners, shares, number, secret, announce):
 
     def take_up():
         connection, address = waiting.popleft()
-        http.handle_stream(IOStream(connection, max_buffer_size=sessions.MOST_MESSAGE_BYTES), address)
+        http.handle_stream(GatheringStream(connection, max_buffer_size=sessions.MOST_MESSAGE_BYTES), address)
 
     acceptor = Acceptor(listeners, site.prefix + HEALTH, health, hand_on, is_our_turn)
     PeriodicCallback(beat, 1000 * BEAT).start()

@@ -38,7 +38,7 @@ class Steps(param.Parameterized):
         self._kept = (
             (definition, ("reference", "summation")),
             (pins, ("pinned", "base", "alone")),
-            (assessment, ("specification", "source", "title")),
+            (assessment, ("specification", "source", "measured", "title")),
         )
         self._held = False
         self._history = History(self._state())
@@ -90,8 +90,15 @@ class Steps(param.Parameterized):
             self._held = held
 
     def _note_move(self, *events):
-        """Note a change that may go on: of a slider, or of a table as it is typed."""
-        self._note({event.name for event in events}, self._inputs.gesture)
+        """Note a change that may go on: of a slider, or of a table as it is typed.
+
+        What is special and of no gesture was chosen: a curve was used, or removed.
+        """
+        names, gesture = {event.name for event in events}, self._inputs.gesture
+        if "special" in names and gesture is None:
+            self._note_act()
+        else:
+            self._note(names, gesture)
 
     def _note_act(self, *_):
         """Note a change that is a step of its own."""

@@ -13,6 +13,7 @@ import trackig_core as tig
 from dashboard.fields import to_display, to_si
 from dashboard.formats import difference_text, frequency_text, level_text, slope_text
 from dashboard.session.inputs import DesignInputs
+from dashboard.session.special import is_curve
 from trackig_core.analysis.stiff_reference import STIFF
 
 SWEPT = 60
@@ -198,15 +199,14 @@ def without_blocks(design):
     Parameters
     ----------
     design : trackig_core.TrackDesign
-        A two-stage design whose stiffnesses and loss factors are numbers.
+        A two-stage design.
 
     Returns
     -------
     trackig_core.TrackDesign
         The single-stage design; stiffness and loss factor at 50 Hz are those of the pair.
     """
-    pad = design.pad_stiffness * (1 + 1j * design.pad_loss_factor)
-    boot = design.boot_stiffness * (1 + 1j * design.boot_loss_factor)
+    pad, boot = (_stated_stiffness(design, part) for part in ("pad", "boot"))
     both = pad * boot / (pad + boot)
     return design.replace(
         pad_stiffness=both.real,
@@ -215,6 +215,17 @@ def without_blocks(design):
         boot_stiffness=None,
         boot_loss_factor=None,
     )
+
+
+def _stated_stiffness(design, part):
+    """Return the complex stiffness of a pad or boot [N/m]; of curves what they are where it is stated."""
+    stiffness, loss_factor = getattr(design, f"{part}_stiffness"), getattr(design, f"{part}_loss_factor")
+    for curve in (stiffness, loss_factor):
+        if is_curve(curve):
+            loss_factor = float(curve.loss_factor(design.stiffness_frequency))
+    if is_curve(stiffness):
+        stiffness = float(stiffness.stiffness(design.stiffness_frequency))
+    return stiffness * (1 + 1j * loss_factor)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,10 +7,15 @@ after. Units are those of the trade, as on the sliders (:mod:`dashboard.session.
     quantity       insertion_gain(63)   insertion_gain(63, coherent, rigid)   peak   slope(200, 400)
                    loaded_track   coupled_block   block_on_boot   cut_on   lumped_lower   lumped_upper
                    supports   stiffening(500)   boot_stiffness   wheel_mass   ... every slider
+                   at_most(boot_stiffness, 63, -1.5)   production(63, -1.5, 15)
     placeholder    quantity | before quantity | change quantity | difference quantity | percent quantity
     claim          quantity is at least|at most NUMBER UNIT         (``before quantity is ...`` too)
                    quantity falls|rises|changes by at least|at most NUMBER UNIT|%
                    ... between NUMBER and NUMBER UNIT
+
+``at_most`` is the greatest value of a slider, all others held, with which insertion gain in a band keeps a
+limit [dB]; ``production`` is how much of production keeps it while the stiffnesses of pads and boots scatter
+by so many per cent, anything within equally likely.
 
 A name is looked up in the table below; nothing from a text is ever evaluated as code.
 """
@@ -23,12 +28,14 @@ from functools import lru_cache
 
 import trackig_core as tig
 from dashboard.fields import FIELDS
+from trackig_core.decide.tolerances import LARGEST
+from trackig_core.track.fields import SLIDER_RANGES
 
 LONGEST = 120
 """Characters that one placeholder or claim may have [-]."""
 
 _NUMBER = r"-?\d{1,6}(?:\.\d{1,6})?"
-_QUANTITY = r"(?P<name>[a-z_]{1,40})(?:\((?P<arguments>[a-z0-9., ]{0,60})\))?"
+_QUANTITY = r"(?P<name>[a-z_]{1,40})(?:\((?P<arguments>[a-z0-9., _-]{0,60})\))?"
 _PLACEHOLDER = re.compile(rf"(?:(?P<form>before|change|difference|percent) )?{_QUANTITY}")
 _CLAIM = re.compile(
     rf"(?P<before>before )?{_QUANTITY} (?:(?P<state>is)|(?P<verb>falls|rises|changes) by)"
@@ -169,7 +176,7 @@ def read_claim(text):
         if found["state"]:
             return low <= quantity.value(before if found["before"] else after) <= high
         was, now = quantity.value(before), quantity.value(after)
-        change = _percent(quantity, was, now) if unit == "%" else now - was
+        change = _percent(quantity, was, now) if unit != quantity.unit else now - was
         change = {"falls": -change, "rises": change, "changes": abs(change)}[found["verb"]]
         return low <= change <= high
 
@@ -280,6 +287,54 @@ def _stiffening(written, given):
     return "", of
 
 
+def _at_most(written, given):
+    name, band, limit = given if len(given) == 3 else ("", "", "")
+    if name not in SLIDER_RANGES:
+        example = "at_most(boot_stiffness, 63, -1.5)"
+        raise QuantityError(f"'{written}': give a slider, a band and a limit in dB, such as {example}")
+    specification = _limited(written, band, limit)
+
+    def of(design):
+        found = tig.decide.feasible_ranges(design, specification, fields=[name])
+        return FIELDS[name].to_display(found[name][-1][1]) if found[name] else None
+
+    return FIELDS[name].unit, of
+
+
+def _production(written, given):
+    band, limit, share = given if len(given) == 3 else ("", "", "")
+    specification = _limited(written, band, limit)
+    scatter = _number(written, share) / 100
+    if not 0 < scatter <= LARGEST:
+        raise QuantityError(f"'{written}': give a tolerance above 0 and up to {100 * LARGEST:g} %")
+    return "%", lambda design: 100 * _complying(design, specification, scatter)
+
+
+def _limited(written, band, limit):
+    """Return a specification of a single band."""
+    try:
+        return tig.Specification([(tig.BAND_CENTRES[_band(written, band)], _number(written, limit))])
+    except tig.SpecificationError as error:
+        raise QuantityError(f"'{written}': {error}") from None
+
+
+def _number(written, text):
+    if not re.fullmatch(_NUMBER, text):
+        raise QuantityError(f"'{written}': {text or 'nothing'} is no number; give one such as -1.5")
+    return float(text)
+
+
+@lru_cache(maxsize=64)
+def _complying(design, specification, scatter):
+    springs = ("pad_stiffness", "boot_stiffness") if design.two_stage else ("pad_stiffness",)
+    tolerances = dict.fromkeys(springs, scatter)
+    return tig.decide.tolerance(design, specification, tolerances, samples=SPECIMENS).probability
+
+
+SPECIMENS = 2048
+"""Specimens that are drawn to say how much of production complies [-]."""
+
+
 def _band(written, label):
     if label not in tig.BAND_LABELS:
         raise QuantityError(f"'{written}': give a band, one of {', '.join(tig.BAND_LABELS)}")
@@ -309,6 +364,8 @@ _MAKERS = {
     "lumped_upper": _lumped(1),
     "supports": _plain("", tig.effective_supports),
     "stiffening": _stiffening,
+    "at_most": _at_most,
+    "production": _production,
     **{name: _slider(name) for name in FIELDS},
 }
 """What each name stands for: from the arguments that are written, a unit and a function of a design."""

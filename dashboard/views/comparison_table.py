@@ -5,16 +5,19 @@ Names come from users, so every text is escaped.
 
 import html
 
+import numpy as np
+
 import trackig_core as tig
 from dashboard import formats
-from dashboard.fields import FIELDS, six_figures
+from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, EXTRAS, LOAD, six_figures
 from dashboard.figures.swatches import swatch_svg
-from dashboard.session.inputs import DesignInputs, display_values
+from dashboard.session.inputs import DesignInputs
+from dashboard.session.special import input_text, rail_text
 
 NONE = "–"
 
 
-def table_html(results, base, bands):
+def table_html(results, base, bands, measured=()):
     """Return the table.
 
     Parameters
@@ -23,8 +26,10 @@ def table_html(results, base, bands):
         The designs, in order; those without a solution have dashes for what it would say.
     base : DesignResult
         The one from which differences are taken.
-    bands : iterable of int
+    bands : sequence of int
         Which bands are listed.
+    measured : iterable of trackig_core.levels.MeasuredGain
+        Curves from elsewhere; by how much each design exceeds them is listed.
 
     Returns
     -------
@@ -35,7 +40,12 @@ def table_html(results, base, bands):
     groups = (
         ("Parameters", _parameter_rows(results, base)),
         ("Natural frequencies, Hz", _frequency_rows(results, base)),
+        (_static_title(results), _static_rows(results, base)),
         ("Insertion gain, dB", _band_rows(results, base, bands)),
+        *(
+            (f"Computed less measured: {each.name}, dB", _measured_rows(results, each, bands))
+            for each in measured
+        ),
     )
     body = "".join(_group(title, rows, len(results)) for title, rows in groups)
     return (
@@ -66,22 +76,28 @@ def _cell(text, difference):
 
 
 def _parameter_rows(results, base):
-    every = [display_values(each.design) for each in results]
-    own = display_values(base.design)
-    yield "Stages", [("two" if values["two_stage"] else "one", "") for values in every]
-    for name, field in FIELDS.items():
-        yield (
-            field.labelled,
-            [_parameter_cell(values.get(name), own.get(name)) for values in every],
-        )
-    yield DesignInputs.param.rail.label, [(values["rail"], "") for values in every]
+    yield "Stages", [("two" if each.design.two_stage else "one", "") for each in results]
+    for name, field in EVERY_FIELD.items():
+        if name not in LOAD and _is_told(name, results):
+            yield field.labelled, [_parameter_cell(name, each.design, base.design) for each in results]
+    yield DesignInputs.param.rail.label, [(rail_text(each.design.rail), "") for each in results]
 
 
-def _parameter_cell(value, base):
-    if value is None:
-        return NONE, ""
-    difference = 0.0 if base is None else six_figures(value - base)
-    return formats.quantity_text(value), f"{difference:+.6g}".replace("-", "−") if difference else ""
+def _is_told(name, results):
+    """Return whether a row says anything: an extra number only where a design has one."""
+    if name not in EXTRAS:
+        return True
+    usual = EXTRA_FIELDS[name].to_si(EXTRA_FIELDS[name].default)
+    return any(getattr(each.design, name) not in (None, usual) for each in results)
+
+
+def _parameter_cell(name, design, base):
+    text, values = input_text(design, name), [getattr(each, name) for each in (design, base)]
+    if not all(isinstance(each, float) for each in values):
+        return text, ""
+    value, own = map(EVERY_FIELD[name].to_display, values)
+    difference = six_figures(value - own)
+    return text, f"{difference:+.6g}".replace("-", "−") if difference else ""
 
 
 def _frequency_rows(results, base):
@@ -99,6 +115,50 @@ def _frequency_rows(results, base):
 def _frequency(result, name):
     """Return a natural frequency [Hz], or None where there is no solution or no such frequency."""
     return None if result.summary is None else getattr(result.summary.solution.natural_frequencies, name)
+
+
+def _measured_rows(results, curve, bands):
+    """Yield differences from a curve from elsewhere: of all its bands, then of those listed that it has."""
+    differences = [None if each.levels is None else curve.difference(each.levels) for each in results]
+    yield "root mean square", [(NONE if each is None else f"{_rms(each):.1f}", "") for each in differences]
+    for band in bands:
+        if np.isfinite(curve.levels[band]):
+            texts = [NONE if each is None else formats.signed_text(each[band]) for each in differences]
+            yield f"{tig.BAND_LABELS[band]} Hz", [(text, "") for text in texts]
+
+
+def _rms(difference):
+    return np.sqrt(np.nanmean(difference**2))
+
+
+def _static_title(results):
+    statics = next((each.statics for each in results if each.statics is not None), None)
+    return "Standing load" if statics is None else f"Under {formats.wheels_text(statics)}"
+
+
+def _static_rows(results, base):
+    """Yield deflection [mm] and seat load [kN]; "≥" where a static stiffness is not stated."""
+    for label, name, factor in STATIC_ROWS:
+        own = None if base.statics is None else getattr(base.statics, name) * factor
+        cells = []
+        for each in results:
+            if each.statics is None:
+                cells.append((NONE, ""))
+                continue
+            value = getattr(each.statics, name) * factor
+            bound = "≥ " if each.statics.at_least and name.endswith("deflection") else ""
+            differs = own is not None and each is not base
+            difference = f"{value - own:+.2f}".replace("-", "−") if differs else ""
+            cells.append((f"{bound}{value:.2f}", difference))
+        yield label, cells
+
+
+STATIC_ROWS = (
+    ("Rail deflection, mm", "rail_deflection", 1e3),
+    ("at the worst place, mm", "largest_rail_deflection", 1e3),
+    ("Seat load, kN", "largest_seat_load", 1e-3),
+)
+"""Label of each row of the statics, its attribute, and what one SI unit is in the unit shown."""
 
 
 def _band_rows(results, base, bands):

@@ -38,12 +38,14 @@ def caption(title, words):
     return pn.pane.HTML(text, stylesheets=[theme.CAPTION_CSS], styles=SHRINKS, margin=(4, 0, 0, 12))
 
 
-def panel(*objects):
-    """Return a panel of the page to which figures may be added while it is shown.
+def panel(*objects, name=None):
+    """Return a panel of the page to which figures may be added while it is shown; scripts may know its name.
 
     Bokeh would lay out a figure that Material has not drawn yet, and fail.
     """
-    return pn.Column(*objects, stylesheets=[theme.PANEL_CSS], sizing_mode="stretch_width", margin=0)
+    return pn.Column(
+        *objects, name=name, stylesheets=[theme.PANEL_CSS], sizing_mode="stretch_width", margin=0
+    )
 
 
 def bokeh_pane(model):

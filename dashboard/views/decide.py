@@ -15,23 +15,20 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.client.exchange import notify
 from dashboard.compute.document import NextTick
-from dashboard.compute.inquiries import WAITING, Inquiry, InquiryRunner, question_of
+from dashboard.compute.feasibility import where
 from dashboard.fields import FIELDS
 from dashboard.figures.decide import ChangeFigure, CloudFigure, MapFigure, PercentileFigure, TornadoFigure
-from dashboard.session.inputs import design_of, values_of
+from dashboard.persistence.samples import SamplesError, read_samples
+from dashboard.session.answers import FIGURE_WORDS, with_unit
+from dashboard.session.inputs import values_of
 from dashboard.session.pins import PinError
+from dashboard.session.special import six_figures_of
+from dashboard.views.asked import BOX, BUTTON, NO_SPECIFICATION, Asked, beside
 from dashboard.views.components import bokeh_pane, caption, panel
+from dashboard.views.kept_answers import KeptAnswers
 from dashboard.views.tab import Tab
-
-FIGURE_WORDS = {
-    "margin": ("Governing margin, dB", 1.0),
-    "level": ("Received level, dB(A)", 1.0),
-    "deflection": ("Rail deflection, mm", 1e3),
-    "loaded_track": ("Loaded-track frequency, Hz", 1.0),
-    "coupled_block": ("Coupled-block frequency, Hz", 1.0),
-    "cost": ("Cost", 1.0),
-}
-"""What figures are called, with the unit in which they are shown, and what turns them into it."""
+from trackig_core.names import LONGEST_NAME
+from trackig_core.track.fields import SCATTERED, SLIDER_RANGES
 
 USUAL_TOLERANCES = {
     "pad_stiffness": 15.0,
@@ -43,98 +40,26 @@ USUAL_TOLERANCES = {
 }
 """Tolerances at first [%]: generic ones, to be replaced by those of the supplier."""
 
-NO_SPECIFICATION = "Write a specification first, in the tab Specification: designs are compared with it."
-
-
-class Asked:
-    """What the questions have in common: an inquiry, its progress, its answer in a sentence.
-
-    Parameters
-    ----------
-    assessment : Assessment
-        Current design, specification and source.
-    definition : GainDefinition
-        Which insertion gain is meant.
-    """
-
-    kind = ""
-
-    def __init__(self, assessment, definition):
-        self.assessment, self.definition = assessment, definition
-        self.inquiry = Inquiry()
-        self.runner = InquiryRunner(self.inquiry)
-        self.sentence = pn.pane.HTML(
-            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(2, 12, 6, 12)
-        )
-        self.progress = pmui.LinearProgress(
-            value=0, variant="determinate", width=160, visible=False, margin=(16, 0, 0, 12)
-        )
-        self.stop = pmui.Button(label="Stop", icon="stop", on_click=self.runner.stop, visible=False, **BUTTON)
-        self.button = pmui.Button(label="Compute", icon="play_arrow", on_click=self.ask, **BUTTON)
-        self.inquiry.param.watch(self._show_state, ["busy", "progress", "problem"])
-        # figures may change only when the session's document may
-        self._draw = NextTick(self._answered)
-        self.inquiry.param.watch(self._draw, "result")
-
-    def settings(self):
-        """Return what is asked about the current design [SI units]."""
-        return {}
-
-    def ask(self, *_):
-        """Ask the question as it stands."""
-        try:
-            settings = self.settings()
-        except ValueError as error:
-            self._say(str(error), "problem")
-            return
-        question = question_of(self.kind, settings, self.assessment, self.definition)
-        if question is None:
-            self._say(NO_SPECIFICATION)
-        elif question == self.inquiry.answered:
-            self._draw()
-        else:
-            self.inquiry.asked = question
-
-    def _show_state(self, *_):
-        inquiry = self.inquiry
-        self.progress.param.update(
-            visible=inquiry.busy and inquiry.progress is not None, value=round(100 * (inquiry.progress or 0))
-        )
-        self.stop.visible = inquiry.busy
-        if inquiry.problem:
-            self._say(inquiry.problem, "problem")
-        elif inquiry.busy and inquiry.progress is None:
-            self._say(WAITING)
-
-    def _answered(self):
-        if self.inquiry.result is not None:
-            self._say(self.words(self.inquiry.result), "fine")
-            self.show(self.inquiry.result)
-
-    def _say(self, words, kind="note"):
-        self.sentence.object = f'<p role="status" class="{kind}">{html.escape(words)}</p>'
-
-    def words(self, result):
-        """Return the answer in one sentence."""
-        return str(result)
-
-    def show(self, result):
-        """Draw an answer."""
-        raise NotImplementedError
-
 
 class HowFar(Asked):
     """How far each number of the design may go, all others held."""
 
     kind = "range"
 
-    def __init__(self, assessment, definition):
-        super().__init__(assessment, definition)
+    def __init__(self, snapshot, exchange, feasibility):
+        super().__init__(snapshot, exchange, feasibility)
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
+        feasibility.param.watch(self._dim, "stale")
+        self._answered()
 
-    def settings(self):
-        """Return what is asked about the current design."""
-        return {"fields": [name for name in FIELDS if _is_number(self.assessment.current.design, name)]}
+    def _answered(self):
+        super()._answered()
+        if self.inquiry.result is None:
+            self._say(self.inquiry.problem or NO_SPECIFICATION)
+            self.table.object = ""
+
+    def _dim(self, *_):
+        self.table.styles = theme.STALE if self.inquiry.stale else theme.FRESH
 
     def words(self, result):
         """Return the answer in one sentence, in the units of the sliders."""
@@ -147,7 +72,11 @@ class HowFar(Asked):
             said += (
                 f", its rail sinking {1e3 * result.deflection:.2f} of {1e3 * result.deflection_limit:.2f} mm"
             )
-        ways = [f"{FIELDS[name].label.lower()} {where(result, name)}" for name in result if result[name]]
+        ways = [
+            f"{FIELDS[name].label.lower()} {where(result, name)}"
+            for name in result
+            if result[name] and name in FIELDS
+        ]
         if result.complies:
             return f"{said}."
         if not ways:
@@ -158,17 +87,19 @@ class HowFar(Asked):
         """List the ranges."""
         rows = "".join(
             f"<tr><th scope='row'>{html.escape(FIELDS[name].label)}</th>"
-            f"<td>{_with_unit(name, getattr(result.design, name))}</td><td>{where(result, name)}</td></tr>"
+            f"<td>{with_unit(name, getattr(result.design, name))}</td><td>{where(result, name)}</td></tr>"
             for name in result
+            if name in FIELDS
         )
         self.table.object = (
-            "<table><thead><tr><th>All others held</th><th>now</th><th>complies</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table>"
+            "<div class='scroll'><table>"
+            "<thead><tr><th>All others held</th><th>now</th><th>complies</th></tr></thead>"
+            f"<tbody>{rows}</tbody></table></div>"
         )
 
     def build(self):
         """Return what is put on the page."""
-        return panel(caption("How far?", HOW_FAR), self.sentence, self.table)
+        return panel(caption("How far?", HOW_FAR), self.sentence, self.answered_row, self.table)
 
 
 class WhatMatters(Asked):
@@ -176,11 +107,14 @@ class WhatMatters(Asked):
 
     kind = "sensitivity"
 
-    def __init__(self, assessment, definition):
-        super().__init__(assessment, definition)
+    def __init__(self, snapshot, exchange):
+        super().__init__(snapshot, exchange)
         self.change = pmui.FloatInput(
-            label="Change, %", value=10.0, start=0.1, end=90.0, step=1.0, size="small", width=130, **BOX
+            label="Change, ± %", value=10.0, start=0.1, end=90.0, step=1.0, size="small", width=130, **BOX
         )
+        self.one_by_one = pmui.Checkbox(label="A change for each field", size="small", margin=(8, 12, 0, 0))
+        self.changes_of = {name: _percent_box(name, 10.0, 0.1) for name in SLIDER_RANGES}
+        self.boxes = pn.FlexBox(*self.changes_of.values(), visible=False, margin=(0, 12))
         self.figure = pn.widgets.Select(
             label="Figure",
             options=["margin"],
@@ -189,14 +123,30 @@ class WhatMatters(Asked):
             margin=(0, 12, 0, 0),
         )
         self.changes, self.tornado = ChangeFigure(), TornadoFigure()
-        self.change.param.watch(self.ask, "value")
+        self.change.param.watch(self._change_all, "value")
+        self.one_by_one.param.watch(self._offer_boxes, "value")
+        for box in self.changes_of.values():
+            box.param.watch(self.ask, "value")
         self.figure.param.watch(self._draw, "value")
+
+    def _change_all(self, event):
+        for box in self.changes_of.values():
+            box.value = event.new
+        self.ask()
+
+    def _offer_boxes(self, event):
+        self.boxes.visible = event.new
 
     def settings(self):
         """Return what is asked about the current design."""
-        share = (self.change.value or 0) / 100
         design = self.assessment.current.design
-        return {"changes": {name: share for name in FIELDS if getattr(design, name) is not None}}
+        return {
+            "changes": {
+                name: box.value / 100
+                for name, box in self.changes_of.items()
+                if box.value and getattr(design, name) is not None
+            }
+        }
 
     def show(self, result):
         """Draw the changes."""
@@ -228,9 +178,87 @@ class WhatMatters(Asked):
         """Return what is put on the page."""
         return panel(
             caption("What matters?", WHAT_MATTERS),
-            pn.FlexBox(self.change, self.figure, margin=(0, 12)),
+            pn.FlexBox(self.change, self.one_by_one, self.figure, margin=(0, 12)),
+            self.boxes,
             self.sentence,
+            self.answered_row,
             beside(self.changes.model, self.tornado.model),
+        )
+
+
+class WhatScatters(Asked):
+    """Which tolerance the scatter of a figure is due to: Sobol indices over those of “How sure?”.
+
+    Parameters
+    ----------
+    snapshot, exchange
+        As for all questions.
+    how_sure : HowSure
+        Has the tolerances.
+    """
+
+    kind = "sobol"
+
+    def __init__(self, snapshot, exchange, how_sure):
+        super().__init__(snapshot, exchange)
+        self._how_sure = how_sure
+        self.table = pn.pane.HTML("", stylesheets=[theme.SHARES_CSS], sizing_mode="stretch_width", margin=0)
+        self.button.label = "Over the tolerances"
+
+    def settings(self):
+        """Return what is asked about the current design."""
+        given = {name: each for name, each in self._how_sure.settings().items() if name != "samples"}
+        design, figures = self.assessment.current.design, ["deflection", "loaded_track"]
+        if self.assessment.source is not None:
+            figures.insert(0, "level")
+        if self.assessment.specification is not None:
+            figures.insert(0, "margin")
+        if design.two_stage:
+            figures.append("coupled_block")
+        return given | {"figures": figures}
+
+    def words(self, result):
+        """Return the answer in one sentence."""
+        words = FIGURE_WORDS[result.figures[0]][0].partition(",")[0].lower()
+        place = int(np.nan_to_num(result.total_order[0]).argmax())
+        total, alone = (100 * order[0, place] for order in (result.total_order, result.first_order))
+        return (
+            f"{total:.0f} % of the scatter of the {words} is due to the {_factor(result.factors[place])}, "
+            f"{alone:.0f} % to it alone."
+        )
+
+    def show(self, result):
+        """List the parts of each figure's variance, as bars."""
+        heads = "".join(
+            f"<th scope='col'>{html.escape(FIGURE_WORDS[name][0].partition(',')[0])}</th>"
+            for name in result.figures
+        )
+        rows = "".join(
+            f"<tr><th scope='row'>{html.escape(_factor(factor).capitalize())}</th>"
+            + "".join(
+                share_cell(result.total_order[row, column], *result.total_order_interval[row, column])
+                for row in range(len(result.figures))
+            )
+            + "</tr>"
+            for column, factor in enumerate(result.factors)
+        )
+        self.table.object = (
+            f"<div class='scroll'><table><thead><tr><th>Part of the scatter of</th>{heads}</tr></thead>"
+            f"<tbody>{rows}</tbody></table>"
+            f"<p>Total-order Sobol indices with their 95 % intervals: interactions count for each that takes "
+            f"part, so that a column may come to more than all. {result.samples} base samples, seed "
+            f"{result.seed}.</p></div>"
+        )
+
+    def build(self):
+        """Return what is put on the page."""
+        return pn.Column(
+            pn.FlexBox(self.button, self.progress, self.stop, margin=(0, 12)),
+            self.sentence,
+            self.answered_row,
+            self.table,
+            sizing_mode="stretch_width",
+            margin=0,
         )
 
 
@@ -239,21 +267,10 @@ class HowSure(Asked):
 
     kind = "tolerance"
 
-    def __init__(self, assessment, definition):
-        super().__init__(assessment, definition)
-        self.tolerances = {
-            name: pmui.FloatInput(
-                label=f"{FIELDS[name].label}, ± %",
-                value=share,
-                start=0.0,
-                end=90.0,
-                step=1.0,
-                size="small",
-                width=190,
-                **BOX,
-            )
-            for name, share in USUAL_TOLERANCES.items()
-        }
+    def __init__(self, snapshot, exchange, production):
+        super().__init__(snapshot, exchange)
+        self._production, self._specimens = production, {}
+        self.tolerances = {name: _percent_box(name, share) for name, share in USUAL_TOLERANCES.items()}
         self.shape = pn.widgets.Select(
             label="Production",
             options={"anything within": "uniform", "bell curve, ± two deviations": "normal"},
@@ -273,6 +290,54 @@ class HowSure(Asked):
         self.percentiles = PercentileFigure()
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
         self.button.label = "How sure?"
+        self.in_explore = pmui.Checkbox(
+            label="Draw 5 to 95 % of production in Explore too", size="small", margin=(0, 12, 0, 8)
+        )
+        self.pasted = pmui.TextAreaInput(
+            label="Measured specimens, one a row (paste from a spreadsheet, with headers)",
+            placeholder="boot stiffness [kN/mm]; boot loss factor",
+            rows=2,
+            max_rows=6,
+            size="small",
+            sizing_mode="stretch_width",
+            margin=(6, 12, 0, 12),
+        )
+        self.read = pmui.Button(label="Use these specimens", icon="table_rows", on_click=self._read, **BUTTON)
+        self.forget = pmui.Button(
+            label="Use tolerances alone", icon="clear", visible=False, on_click=self._forget, **BUTTON
+        )
+        self.specimens = pn.pane.HTML(
+            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
+        )
+        self.in_explore.param.watch(self._draw_in_explore, "value")
+
+    def _read(self, *_):
+        """Take the table that was pasted in the place of the tolerances of what it holds."""
+        try:
+            self._specimens, notes = read_samples(self.pasted.value or "")
+        except SamplesError as problem:
+            self._tell(str(problem), "problem")
+            return
+        count = len(next(iter(self._specimens.values())))
+        what = " and ".join(FIELDS[name].label.lower() for name in self._specimens)
+        self._tell(". ".join([f"{what.capitalize()} scatter as in {count} specimens", *notes]) + ".", "fine")
+        self._show_boxes()
+
+    def _forget(self, *_):
+        self._specimens = {}
+        self._tell("", "note")
+        self._show_boxes()
+
+    def _show_boxes(self):
+        self.forget.visible = bool(self._specimens)
+        for name, box in self.tolerances.items():
+            box.disabled = name in self._specimens
+
+    def _tell(self, words, kind):
+        self.specimens.object = words and f'<p role="status" class="{kind}">{html.escape(words)}</p>'
+
+    def _draw_in_explore(self, event):
+        self._production.wanted = event.new
 
     def settings(self):
         """Return what is asked about the current design."""
@@ -281,29 +346,36 @@ class HowSure(Asked):
         given = {
             name: {kind: half * box.value / 100}
             for name, box in self.tolerances.items()
-            if box.value and _is_number(design, name)
+            if box.value and _is_number(design, name) and name not in self._specimens
         }
-        if not given:
+        if not given and not self._specimens:
             raise ValueError("Give one of the tolerances: with none, nothing scatters.")
-        return {"tolerances": given, "samples": self.samples.value, "seed": self.seed.value or 0}
+        settings = {"tolerances": given, "samples": self.samples.value, "seed": self.seed.value or 0}
+        return settings | ({"production": self._specimens} if self._specimens else {})
 
     def show(self, result):
         """Draw the percentiles, and say what to tighten."""
         specification, current = self.assessment.specification, self.assessment.current
         limit = np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels
         self.percentiles.show(result.percentiles, current.levels, limit)
+        question = self.inquiry.answered
+        self._production.computed = (
+            *(result.design, question.reference, question.summation),
+            result.percentiles,
+        )
         low, _, high = result.margin_percentiles
         rows = "".join(
-            f"<tr><th scope='row'>{html.escape(FIELDS[name].label)}</th><td>{100 * share:.1f} %</td></tr>"
+            f"<tr><th scope='row'>{html.escape(_factor(name).capitalize())}</th>"
+            f"<td>{100 * share:.1f} %</td></tr>"
             for name, share in result.tightened.items()
         )
         self.table.object = (
-            f"<p>Governing margin of nine in ten: {formats.signed_text(low)} to "
+            f"<div class='scroll'><p>Governing margin of nine in ten: {formats.signed_text(low)} to "
             f"{formats.signed_text(high)} dB. "
             f"Worst corner of all tolerances: {formats.signed_text(result.worst_margin)} dB. "
             f"{result.samples} samples, seed {result.seed}.</p>"
-            "<table><thead><tr><th>With half the scatter of</th><th>complies</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table>"
+            "<table><thead><tr><th>Half the scatter of</th><th>complies</th></tr></thead>"
+            f"<tbody>{rows}</tbody></table></div>"
         )
 
     def build(self):
@@ -311,10 +383,14 @@ class HowSure(Asked):
         return panel(
             caption("How sure?", HOW_SURE),
             pn.FlexBox(*self.tolerances.values(), margin=(0, 12)),
+            self.pasted,
+            pn.FlexBox(self.read, self.forget, margin=(0, 12)),
+            self.specimens,
             pn.FlexBox(
                 *(self.shape, self.samples, self.seed, self.button, self.progress, self.stop), margin=(0, 12)
             ),
             self.sentence,
+            pn.FlexBox(self.answered_row, self.in_explore, margin=0),
             bokeh_pane(self.percentiles.model),
             self.table,
         )
@@ -325,8 +401,8 @@ class Map(Asked):
 
     kind = "map"
 
-    def __init__(self, assessment, definition, take):
-        super().__init__(assessment, definition)
+    def __init__(self, snapshot, exchange, take):
+        super().__init__(snapshot, exchange)
         self._take = take
         self.x, self.y = (
             pn.widgets.Select(
@@ -399,6 +475,7 @@ class Map(Asked):
         return pn.Column(
             pn.FlexBox(self.x, self.y, self.figure, self.button, self.progress, self.stop, margin=(0, 12)),
             self.sentence,
+            self.answered_row,
             self.place,
             sizing_mode="stretch_width",
             margin=0,
@@ -410,8 +487,8 @@ class Search(Asked):
 
     kind = "find"
 
-    def __init__(self, assessment, definition, take, pin):
-        super().__init__(assessment, definition)
+    def __init__(self, snapshot, exchange, take, pin):
+        super().__init__(snapshot, exchange)
         self._take, self._pin, self._chosen = take, pin, None
         self.free = pn.widgets.CheckBoxGroup(
             label="Free",
@@ -442,6 +519,24 @@ class Search(Asked):
                 ("fastener_spacing", "Saving per metre of spacing", 0.0),
             )
         }
+        self.chosen = pn.widgets.CheckBoxGroup(
+            label="From the catalogue",
+            options={words: kind for kind, words in CATALOGUED.items()},
+            value=[],
+            inline=True,
+            stylesheets=[theme.CHECKS_CSS],
+            margin=(0, 12, 0, 0),
+        )
+        self.deflection = pmui.FloatInput(
+            label="Rail sinks at most, mm (0: as specified)",
+            value=0.0,
+            start=0.0,
+            end=100.0,
+            step=0.1,
+            size="small",
+            width=290,
+            **BOX,
+        )
         self.seed = pmui.IntInput(label="Seed", value=0, start=0, size="small", width=110, **BOX)
         self.button.label = "Find designs"
         self.take = pmui.Button(
@@ -450,6 +545,9 @@ class Search(Asked):
         self.pin = pmui.Button(
             label="Pin", icon="push_pin", disabled=True, on_click=self._pin_chosen, **BUTTON
         )
+        self.pin_name = pmui.TextInput(
+            label="Name it", value="Found", max_length=LONGEST_NAME, size="small", width=220, **BOX
+        )
         self.cloud = CloudFigure(self._choose)
         self.against.param.watch(self._offer_prices, "value")
         self.inquiry.param.watch(NextTick(self._grow), "so_far")
@@ -457,10 +555,17 @@ class Search(Asked):
     def settings(self):
         """Return what is asked about the current design."""
         design = self.assessment.current.design
-        free = [name for name in self.free.value if _is_number(design, name)]
-        if not free:
+        choices = {kind: catalogued(kind, design) for kind in self.chosen.value}
+        choices = {kind: offered for kind, offered in choices.items() if offered}
+        taken = {name for kind, offered in choices.items() if kind != "rail" for name in offered[0]}
+        free = [name for name in self.free.value if _is_number(design, name) and name not in taken]
+        if not free and not choices:
             raise ValueError("Choose which numbers are free.")
         settings = {"free": free, "objectives": ["margin", self.against.value], "seed": self.seed.value or 0}
+        if choices:
+            settings["choices"] = choices
+        if self.deflection.value:
+            settings["max_deflection"] = self.deflection.value / 1e3
         if self.against.value == "cost":
             prices = {name: box.value or 0.0 for name, box in self.prices.items()}
             prices["fastener_spacing"] *= -1
@@ -479,7 +584,7 @@ class Search(Asked):
     def show(self, found):
         """Draw what was found."""
         specification = self.assessment.specification
-        names = [name for name in found.free if name in FIELDS]
+        names = [name for name in FIELDS if name in found.free or _varies(found.many, name)]
         ends = {
             name: (FIELDS[name].low * FIELDS[name].factor, FIELDS[name].high * FIELDS[name].factor)
             for name in names
@@ -529,16 +634,18 @@ class Search(Asked):
         self._take(self._design())
 
     def _pin_chosen(self, *_):
-        self._pin(self._design())
+        self._pin(self._design(), self.pin_name.value.strip() or "Found")
 
     def build(self):
         """Return what is put on the page."""
         pictures = (self.cloud.objectives, self.cloud.fields, self.cloud.gains)
         return pn.Column(
             pn.FlexBox(self.free, margin=(0, 12)),
+            pn.FlexBox(self.chosen, margin=(0, 12)),
             pn.FlexBox(
                 self.against,
                 *self.prices.values(),
+                self.deflection,
                 self.seed,
                 self.button,
                 self.progress,
@@ -546,7 +653,8 @@ class Search(Asked):
                 margin=(0, 12),
             ),
             self.sentence,
-            pn.Row(self.take, self.pin, margin=(0, 12)),
+            self.answered_row,
+            pn.FlexBox(self.take, self.pin_name, self.pin, margin=(0, 12)),
             beside(*pictures),
             sizing_mode="stretch_width",
             margin=0,
@@ -558,43 +666,43 @@ class Decide(Tab):
 
     Parameters
     ----------
-    inputs : DesignInputs
-        Where a design that is found is taken to.
-    definition : GainDefinition
-        Which insertion gain is meant.
-    pins : Pins
-        Where it is pinned.
-    assessment : Assessment
-        Current design, specification and source.
+    snapshot : SessionSnapshot
+        The session: what is asked about, and what a design that is found is taken to.
+    exchange : Exchange
+        Where files go.
+    feasibility : Feasibility
+        Where the current design complies, which the sliders show too.
+    production : Production
+        Where insertion gain of production is left for others to draw.
     """
 
     title = "Decide"
     link_name = "decide"
 
-    def __init__(self, inputs, definition, pins, assessment):
+    def __init__(self, snapshot, exchange, feasibility, production):
         super().__init__()
-        self._inputs, self._pins = inputs, pins
-        self.how_far = HowFar(assessment, definition)
-        self.what_matters = WhatMatters(assessment, definition)
-        self.how_sure = HowSure(assessment, definition)
-        self.map = Map(assessment, definition, self._take)
-        self.search = Search(assessment, definition, self._take, self._pin)
-        assessment.param.watch(self.refresh, "results")
+        self._inputs, self._pins = snapshot.inputs, snapshot.pins
+        self.how_far = HowFar(snapshot, exchange, feasibility)
+        self.what_matters = WhatMatters(snapshot, exchange)
+        self.how_sure = HowSure(snapshot, exchange, production)
+        self.what_scatters = WhatScatters(snapshot, exchange, self.how_sure)
+        self.map = Map(snapshot, exchange, self._take)
+        self.search = Search(snapshot, exchange, self._take, self._pin)
+        self.kept = KeptAnswers(snapshot.answers, exchange)
+        snapshot.assessment.param.watch(self.refresh, "results")
 
     def refresh(self, *_):
         """Answer for the current design what takes milliseconds."""
         if self.in_sight:
-            self.how_far.ask()
             self.what_matters.ask()
 
     def _take(self, design):
-        self._inputs.take(values_of(design))
+        self._inputs.take(values_of(six_figures_of(design)))
 
-    def _pin(self, design):
+    def _pin(self, design, name):
         try:
             # as the sliders show it: a study of it opens as it was saved
-            shown = design_of(self._inputs.to_values() | values_of(design))
-            pin = self._pins.add(shown, "Found", self._inputs.preset)
+            pin = self._pins.add(six_figures_of(design), name, self._inputs.preset)
         except PinError as problem:
             notify("warning", str(problem))
         else:
@@ -607,53 +715,102 @@ class Decide(Tab):
             sizing_mode="stretch_width",
             margin=(0, 8),
         )
-        parts = (each.build() for each in (self.how_far, self.what_matters, self.how_sure))
-        for part in (*parts, panel(caption("Which one?", WHICH_ONE), which)):
+        parts = (
+            self.how_far.build(),
+            self.what_matters.build(),
+            self.how_sure.build(),
+            panel(caption("Which tolerance?", WHICH_TOLERANCE), self.what_scatters.build()),
+            panel(caption("Which one?", WHICH_ONE), which),
+            panel(caption("Kept answers", KEPT), self.kept),
+        )
+        for part in parts:
             part.margin = (0, 8, 8, 8)
             place.append(part)
             yield
 
 
-BUTTON = {"size": "small", "variant": "outlined", "margin": (10, 8, 6, 0)}
-BOX = {"margin": (6, 12, 6, 0)}
-
 HOW_FAR = "where the design complies along each number, all others held"
 WHAT_MATTERS = "what changes when a number does; the map shows the change of insertion gain when it is more"
 HOW_SURE = "how much of production complies, when numbers scatter by their tolerances"
+WHICH_TOLERANCE = "what the scatter is due to, each with all that it does together with others"
+KEPT = "part of the study and of the report, a page each"
 WHICH_ONE = "designs over two numbers, or a search over several"
 
 
-def beside(*figures):
-    """Return figures side by side, or below each other where there is no room."""
-    panes = [bokeh_pane(each) for each in figures]
-    return pn.Column(*panes, stylesheets=[theme.FITTING_CSS], sizing_mode="stretch_width", margin=0)
+CATALOGUED = {
+    "rail": "rail sections",
+    "pad": "pads of the catalogue",
+    "block": "blocks of the catalogue",
+    "boot": "boots of the catalogue",
+}
+"""What may be chosen from the bundled catalogue, by its kind of component."""
 
 
-def where(result, name):
-    """Return where a design complies along a field, in the slider's unit."""
-    intervals, (least, greatest) = result[name], result.ranges[name]
-    if not intervals:
-        return "nowhere"
-    texts = []
-    for low, high in intervals:
-        if low == least and high == greatest:
-            return "everywhere"
-        if low == least:
-            texts.append(f"at most {_with_unit(name, high)}")
-        elif high == greatest:
-            texts.append(f"at least {_with_unit(name, low)}")
-        else:
-            texts.append(f"{_with_unit(name, low)} to {_with_unit(name, high)}")
-    return " or ".join(texts)
+def catalogued(kind, design):
+    """Return what a search may choose from the catalogue: plain values, as a question takes them.
+
+    Parameters
+    ----------
+    kind : str
+        A kind of component.
+    design : trackig_core.TrackDesign
+        The design; a single-stage one has no block or boot to choose.
+
+    Returns
+    -------
+    list of dict of str to float, or of str
+        Values by field of each component that has the same fields as the first; rails by their names.
+    """
+    if kind == "rail":
+        return list(tig.RAILS)
+    if kind in ("block", "boot") and not design.two_stage:
+        return []
+    components = tig.study.bundled_catalogue().of_kind(kind).values()
+    fitted = [(each.fitted_to(design), each.values) for each in components]
+    fields = [name for name in SCATTERED if name.startswith(f"{kind}_") and name in SLIDER_RANGES]
+    return [
+        {name: getattr(made, name) for name in fields}
+        for made, values in fitted
+        if all(isinstance(values.get(name), float) for name in fields)
+    ]
 
 
-def _with_unit(name, value):
-    field = FIELDS[name]
-    return f"{value / field.factor:.4g} {field.unit}".rstrip()
+def share_cell(share, low, high):
+    """Return a cell of a table that shows a part of a variance as a bar, with its interval."""
+    if np.isnan(share):
+        return "<td>–</td>"
+    width = 100 * min(max(share, 0.0), 1.0)
+    return (
+        f"<td title='{100 * low:.0f} to {100 * high:.0f} %'><span class='bar' style='width: {width:.0f}px'>"
+        f"</span>{100 * max(share, 0.0):.0f} %<br><small>{100 * low:.0f} to {100 * high:.0f}</small></td>"
+    )
+
+
+def _percent_box(name, value, low=0.0):
+    return pmui.FloatInput(
+        label=f"{FIELDS[name].label}, ± %",
+        value=value,
+        start=low,
+        end=90.0,
+        step=1.0,
+        size="small",
+        width=190,
+        **BOX,
+    )
+
+
+def _factor(name):
+    """Return what scatters, as it is spoken."""
+    return FIELDS[name].label.lower() if name in FIELDS else "measured specimens"
+
+
+def _varies(many, name):
+    column = many.columns[name]
+    return column.dtype == float and column.min() < column.max()
 
 
 def _numbers():
-    return {field.label: name for name, field in FIELDS.items()}
+    return {FIELDS[name].label: name for name in SLIDER_RANGES}
 
 
 def _is_number(design, name):

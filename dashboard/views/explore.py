@@ -1,6 +1,6 @@
-"""The tab in which a track is explored: insertion gain, force over time, natural frequencies.
+"""The tab in which a track is explored: insertion gain, force over time, natural frequencies, standing load.
 
-All three are redrawn together, from the same solution.
+All are redrawn together, from the same solution.
 """
 
 import panel as pn
@@ -10,6 +10,7 @@ from dashboard import theme
 from dashboard.compute.document import NextTick
 from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
+from dashboard.session.production import Production
 from dashboard.views.components import bokeh_pane, caption, gain_axis, panel
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.tab import Tab
@@ -29,19 +30,22 @@ class Explore(Tab):
         Whether the pinned designs are drawn alone.
     assessment : Assessment
         Results that are drawn, and the specification, which is drawn as a limit.
+    production : Production, optional
+        Insertion gain of production, which is drawn on request.
     """
 
     title = "Explore"
     link_name = "explore"
 
-    def __init__(self, outcome, definition, pins, assessment):
+    def __init__(self, outcome, definition, pins, assessment, production=None):
         super().__init__()
         self._outcome, self._definition = outcome, definition
+        self._production = Production() if production is None else production
         self._pins, self._assessment = pins, assessment
         self._drawn = None
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
-        self.frequencies = Frequencies(outcome)
+        self.frequencies = Frequencies(outcome, assessment)
         self.verdict = ShortVerdict(assessment)
         self.panes = [bokeh_pane(each.layout) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
@@ -65,8 +69,9 @@ class Explore(Tab):
         outcome.param.watch(self._dim, ["problem", "progress", "summary"])
         show = NextTick(self._show)
         # results follow the definition and the specification too
-        assessment.param.watch(show, ["results", "preset"])
+        assessment.param.watch(show, ["results", "preset", "measured"])
         pins.param.watch(show, "alone")
+        self._production.param.watch(show, ["wanted", "computed"])
         self._show()
         self._dim()
 
@@ -95,6 +100,8 @@ class Explore(Tab):
             preset=self._assessment.preset,
             limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
+            measured=self._assessment.measured,
+            production=self._production.band(self._assessment.current.design, self._definition),
         )
 
     def _dim(self, *_):
@@ -151,7 +158,7 @@ class Explore(Tab):
         yield
         gain.append(gain_pane)
         yield
-        frequencies.objects = [caption("Natural frequencies", ""), self.frequencies]
+        frequencies.objects = [caption("Natural frequencies and standing load", ""), self.frequencies]
         force.objects = [caption(FORCE_TITLE, FORCE_WORDS), force_pane]
         yield
 

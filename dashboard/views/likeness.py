@@ -12,6 +12,7 @@ from panel.viewable import Viewer
 
 from dashboard import formats, theme
 from dashboard.fields import FIELDS
+from dashboard.session.special import rail_text
 
 ALIKE = {
     "wheel_mass": "unsprung wheel mass",
@@ -86,7 +87,7 @@ def likeness_words(designs):
 
 def _listed(name, values):
     if name == "rail":
-        return _joined(sorted({rail.name for rail in values}))
+        return _joined(sorted({rail_text(rail) for rail in values}))
     field = FIELDS[name]
     figures = [formats.quantity_text(field.to_display(value)) for value in sorted(values)]
     return f"{_joined(figures)} {field.unit}"

@@ -148,7 +148,13 @@ class SaveAndShare(Tab):
         solved = [each.summary for each in self._assessment.results if each.summary is not None]
         summaries = {summary.design: summary for summary in solved}
         await self._save_drawn(
-            self.report, self._file("report.html"), "text/html", write_report, study, summaries
+            self.report,
+            self._file("report.html"),
+            "text/html",
+            write_report,
+            study,
+            summaries,
+            self._snapshot.answers.pages,
         )
 
     async def _save_sheet(self, *_):
@@ -226,11 +232,12 @@ class SaveAndShare(Tab):
 # plots are slow to load, and nobody waits for them who wants none
 
 
-def write_report(study, summaries):
+def write_report(study, summaries, pages):
     """Return the report of a study, as of today (str)."""
     from dashboard.report.html_report import html_report
 
-    return html_report(study, summaries, date=datetime.date.today(), version=tig.__version__)
+    today = datetime.date.today()
+    return html_report(study, summaries, date=today, version=tig.__version__, pages=pages)
 
 
 def write_sheet(result, heading, specification, source):

@@ -7,13 +7,22 @@ nothing else.
 
 from panel.viewable import Viewer
 
+import trackig_core as tig
+from dashboard.client.exchange import notify
 from dashboard.client.quantities import Quantities
-from dashboard.fields import CLOSED_GROUPS, FIELDS, INPUTS, NUMBERS, SECOND_STAGE
-from dashboard.session.inputs import display_values
+from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, INPUTS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
+from dashboard.session.inputs import display_values, values_of
+from dashboard.session.special import OWN_RAIL, curve_text, is_curve, rail_text
 
 FIRST_ROWS = {"Block and boot": ("two_stage",)}
 LAST_ROWS = {"Track": ("rail",)}
 """Inputs that are no numbers, by the group that they begin or end."""
+
+KINDS = {"Rail pad": ["pad"], "Block and boot": ["block", "boot"], "Track": ["rail"]}
+"""Kinds of component of the catalogue that a group may be set from."""
+
+OTHERS = {"rail": [["of its own mass and EI …", OWN_RAIL]]}
+"""What may be chosen besides an input's own options, words first."""
 
 
 class Controls(Viewer):
@@ -25,18 +34,50 @@ class Controls(Viewer):
         What they change.
     outcome : Outcome
         Says when the picture of a change has been drawn.
+    shelf : Shelf
+        The catalogue from which components are chosen.
+    on_curve : callable, optional
+        Called with the name of an input whose curve is to be looked at.
+    feasibility : Feasibility, optional
+        Where the design complies along each slider; by default nothing is drawn on them.
     """
 
-    def __init__(self, inputs, outcome):
+    def __init__(self, inputs, outcome, shelf, on_curve=None, feasibility=None):
         super().__init__()
-        self._inputs, self._outcome = inputs, outcome
+        self._inputs, self._outcome, self._shelf = inputs, outcome, shelf
         self._number, self._due, self._taking = 0, False, False
         self.quantities = Quantities(groups=groups(inputs), sizing_mode="stretch_width", margin=0)
         self.quantities.on_set = self._take
         self.quantities.on_revert = inputs.revert
+        self.quantities.on_chip = on_curve
+        self.quantities.on_pick = self._pick
         inputs.param.watch(self._show, [*INPUTS, "modified", "refused"])
         outcome.param.watch(self._answer, ["summary", "busy", "progress", "problem", "compiling"])
+        shelf.param.watch(self._offer, "catalogue")
+        self._offer()
         self._show()
+        self._feasibility = feasibility
+        if feasibility is not None:
+            feasibility.param.watch(self._show_feasible, ["result", "problem", "stale"])
+            self._show_feasible()
+
+    def _show_feasible(self, *_):
+        known = self._feasibility
+        self.quantities.param.update(feasible=known.stretches, stale=known.stale)
+
+    def _offer(self, *_):
+        catalogue = self._shelf.catalogue
+        kinds = [kind for each in KINDS.values() for kind in each]
+        self.quantities.catalogue = {kind: list(catalogue.of_kind(kind)) for kind in kinds}
+
+    def _pick(self, kind, name):
+        try:
+            design = self._shelf.fitted(kind, name, self._inputs.to_design())
+        except tig.DesignError as error:
+            notify("warning", f"Nothing has changed: {error}.")
+        else:
+            if design is not None:
+                self._inputs.take(values_of(design))
 
     def _take(self, number, given, gesture):
         self._number, self._due, self._taking = number, True, True
@@ -54,12 +95,15 @@ class Controls(Viewer):
         marks = display_values(inputs.preset_design)
         self.quantities.state = {
             "number": self._number,
-            "values": {name: getattr(inputs, name) for name in INPUTS},
+            "values": inputs.to_shown(),
             "refused": inputs.refused,
             "disabled": [] if inputs.two_stage else list(SECOND_STAGE),
+            "words": {"rail": rail_text(inputs.special["rail"])} if "rail" in inputs.special else {},
+            "hidden": [] if "rail" in inputs.special else list(RAIL_FIELDS),
             "marks": {name: marks[name] for name in NUMBERS if name in marks},
             "modified": inputs.modified,
         }
+        self.quantities.chips = chips(inputs)
 
     def _answer(self, *_):
         if self._due and not self._taking and self._is_settled():
@@ -89,20 +133,49 @@ def groups(inputs):
     Returns
     -------
     list of dict
-        Title, fields, and whether closed at first, of each group.
+        Title, fields, kinds of component, and whether closed at first, of each group.
     """
     track = [_choice(inputs, "preset", replaces=True), {"kind": "departure", "label": "Back to Table 1"}]
-    found = [{"title": "", "closed": False, "fields": track}]
-    for title in dict.fromkeys(field.group for field in FIELDS.values()):
+    found = [{"title": "", "closed": False, "kinds": [], "fields": track}]
+    for title in dict.fromkeys(field.group for field in EVERY_FIELD.values()):
         rows = [_other(inputs, name) for name in FIRST_ROWS.get(title, ())]
-        rows += [_number(field) for field in FIELDS.values() if field.group == title]
+        rows += [_number(field) for field in EVERY_FIELD.values() if field.group == title]
         rows += [_other(inputs, name) for name in LAST_ROWS.get(title, ())]
-        found.append({"title": title, "closed": title in CLOSED_GROUPS, "fields": rows})
+        rows += [_number(field) for field in RAIL_FIELDS.values() if field.group == title]
+        found.append(
+            {
+                "title": title,
+                "closed": title in CLOSED_GROUPS,
+                "kinds": KINDS.get(title, []),
+                "fields": rows,
+            }
+        )
     return found
 
 
+def chips(inputs):
+    """Return what stands in the place of sliders, in words by name: curves as measured.
+
+    Parameters
+    ----------
+    inputs : DesignInputs
+        The current design.
+
+    Returns
+    -------
+    dict of str to str
+        Words of each chip.
+    """
+    curves = {name: each for name, each in inputs.special.items() if is_curve(each)}
+    found = {name: curve_text(curve) for name, curve in curves.items()}
+    for name, curve in curves.items():
+        if isinstance(curve, tig.StiffnessCurve):
+            found[name.replace("stiffness", "loss_factor")] = "measured with the stiffness"
+    return {name: words for name, words in found.items() if inputs.two_stage or name not in SECOND_STAGE}
+
+
 def _number(field):
-    shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words")
+    shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words", "blank")
     return {"kind": "number", **{name: getattr(field, name) for name in shown}}
 
 
@@ -115,7 +188,7 @@ def _other(inputs, name):
 def _choice(inputs, name, replaces=False):
     """Return a choice; one that replaces sets all other inputs too."""
     parameter = inputs.param[name]
-    options = [list(each) for each in parameter.names.items()]
+    options = [list(each) for each in parameter.names.items()] + OTHERS.get(name, [])
     return {
         "kind": "choice",
         "name": name,

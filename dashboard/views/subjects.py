@@ -11,7 +11,7 @@ from panel.viewable import Viewer
 import trackig_core as tig
 from dashboard import theme
 from dashboard.compute.questions import Question, QuestionRunner
-from dashboard.fields import NUMBERS, SECOND_STAGE, to_display
+from dashboard.fields import NUMBERS, OPENING_PRESET, to_display
 from dashboard.figures.learn import (
     BandsFigure,
     Curve,
@@ -127,7 +127,7 @@ class Resonances(Subject):
         self.figure, self.words = SweepFigure(), words()
         self.field = pn.widgets.Select(
             label="Against",
-            options=_fields(two_stage=True),
+            options=_fields(tig.PRESETS[OPENING_PRESET]),
             value=OPENING_FIELD,
             width=260,
             margin=(0, 12, 0, 12),
@@ -139,8 +139,8 @@ class Resonances(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        fields = _fields(design.two_stage)
-        chosen = self.field.value if self.field.value in fields.values() else "pad_stiffness"
+        fields = _fields(design)
+        chosen = self.field.value if self.field.value in fields.values() else next(iter(fields.values()))
         self.field.param.update(options=fields, value=chosen)
         return explanations.resonances, design, chosen
 
@@ -155,7 +155,7 @@ class Resonances(Subject):
         if summary is None or answer is None:
             return
         name, natural = answer.sweep.field, summary.solution.natural_frequencies
-        if getattr(summary.design, name) is None:
+        if not isinstance(getattr(summary.design, name), float):
             return
         both = (natural.loaded_track, natural.coupled_block)
         self.figure.point(
@@ -173,8 +173,10 @@ class Resonances(Subject):
         )
 
 
-def _fields(two_stage):
-    return {DesignInputs.param[name].label: name for name in NUMBERS if two_stage or name not in SECOND_STAGE}
+def _fields(design):
+    """Return the fields of a design that are numbers, by label: neither missing nor measured."""
+    numbers = (name for name in NUMBERS if isinstance(getattr(design, name), float))
+    return {DesignInputs.param[name].label: name for name in numbers}
 
 
 class Slopes(Subject):

@@ -20,6 +20,7 @@ from dashboard.figures.verification import (
     TimeStepFigure,
 )
 from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.idealisations import IdealisationsView
 from dashboard.views.tab import Tab
 
 FINE = tig.Lattice(elements_per_bay=24)
@@ -55,6 +56,7 @@ class Verify(Tab):
         super().__init__()
         self._on_look = on_look
         self._outcome, self._definition = outcome, definition
+        self.idealisations = IdealisationsView(outcome, definition)
         self.comparison = ComparisonFigure()
         self.difference = DifferenceFigure(self.comparison.bands)
         self.receptance = ReceptanceFigure()
@@ -94,6 +96,7 @@ class Verify(Tab):
     def refresh(self):
         """Have the solution checked while the tab is in sight."""
         self._on_look(self.in_sight)
+        self.idealisations.look(self.in_sight)
 
     def _show(self, *_):
         self._show_run()
@@ -173,14 +176,14 @@ class Verify(Tab):
     def _show_damping(self, solution):
         design = solution.design
         laws = {"pad": solution.pad_law, "boot": solution.boot_law}
-        stated = {"pad": design.pad_loss_factor, "boot": design.boot_loss_factor}
         stiffness, loss_factor = {}, {}
         for part, law in laws.items():
             present = law is not None
             stiffness[part] = law.dynamic_stiffness(DAMPED).real / law.stiffness(50.0) if present else NOTHING
-            stiffness[f"{part}_stated"] = NOTHING
+            stated = stated_spring(design, part)
+            stiffness[f"{part}_stated"] = stated[0] / law.stiffness(50.0) if present else NOTHING
             loss_factor[part] = law.loss_factor(DAMPED) if present else NOTHING
-            loss_factor[f"{part}_stated"] = np.full_like(DAMPED, stated[part]) if present else NOTHING
+            loss_factor[f"{part}_stated"] = stated[1]
         self.stiffness.show(DAMPED, **stiffness)
         self.loss_factor.show(DAMPED, **loss_factor)
         worst = max(law.worst_error for law in laws.values() if law is not None)
@@ -216,7 +219,7 @@ class Verify(Tab):
         convergence = _pair("Convergence", time_step, element, self.words["convergence"])
         damping = _pair("Memory of the damping", stiffness, loss_factor, self.words["damping"])
         return pmui.Grid(
-            *(pmui.Grid(each, size=12) for each in (run, peer, convergence, damping)),
+            *(pmui.Grid(each, size=12) for each in (run, peer, convergence, damping, self.idealisations)),
             container=True,
             spacing=1,
             sizing_mode="stretch_width",
@@ -228,6 +231,19 @@ BELOW = 317.0
 """Frequency up to which the independent package is compared in words [Hz]: the 315 Hz band's centre."""
 
 HALF = {"xs": 12, "lg": 6}
+
+
+def stated_spring(design, part):
+    """Return the stiffness [N/m] and loss factor [-] that were stated of a part, over DAMPED; NaN if not.
+
+    Of a stiffness that is a number, only the loss factor is stated over frequency.
+    """
+    stiffness, loss_factor = (getattr(design, f"{part}_{what}") for what in ("stiffness", "loss_factor"))
+    if isinstance(stiffness, tig.StiffnessCurve):
+        return stiffness.stiffness(DAMPED), stiffness.loss_factor(DAMPED)
+    if isinstance(loss_factor, tig.LossFactorCurve):
+        return NOTHING, loss_factor.loss_factor(DAMPED)
+    return NOTHING, NOTHING if loss_factor is None else np.full_like(DAMPED, loss_factor)
 
 
 def largest(differences):

@@ -26,7 +26,7 @@ from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.views.explore import Explore
 from dashboard.views.status import Status
-from tests.browser.conftest import address, chromium, open_dashboard  # noqa: F401  (fixtures)
+from tests.browser.conftest import address, chromium, open_dashboard, reader  # noqa: F401  (fixtures)
 from tests.browser.test_dashboard import drag
 
 OPENING = tig.PRESETS["booted-block-low-mass"]
@@ -189,3 +189,43 @@ def test_first_page(tell):
             tell(time.perf_counter() - began, "panel serve to first page")
         finally:
             server.terminate()
+
+
+COMPLYING = tig.Specification([(31.5, 15.0), (63, -4.0), (125, -6.0), (250, -14.0)])
+
+WATCH_STRETCHES = """input => {
+    const {data} = [...Bokeh.documents[0]._all_models.values()].find(
+        model => model.data?.properties?.feasible !== undefined)
+    window.last_move = window.in_place = 0
+    const moved = () => { window.last_move = performance.now() }
+    new MutationObserver(moved).observe(input, {attributes: true, attributeFilter: ["aria-valuetext"]})
+    const placed = () => {
+        if (!data.stale) requestAnimationFrame(() => { window.in_place = performance.now() })
+    }
+    data.properties.stale.change.connect(placed)
+    data.properties.feasible.change.connect(placed)
+}"""
+
+
+@pytest.mark.browser
+def test_sliders_that_know_the_answer(open_dashboard, tell):  # noqa: F811
+    """From the last move of a drag to the stretches of compliance on all sliders."""
+    page = open_dashboard()
+    page.get_by_role("tab", name="Specification", exact=True).click()
+    page.get_by_role("textbox", name="Paste").fill(COMPLYING.to_csv().replace(",", "\t"))
+    page.get_by_role("button", name="Take what is pasted").click()
+    page.get_by_role("tab", name="Explore", exact=True).click()
+    page.wait_for_timeout(2000)
+    handle = page.get_by_role("slider", name=SLIDER)
+    handle.evaluate(WATCH_STRETCHES)
+    waits = []
+    for _ in range(6):
+        page.evaluate("() => { window.in_place = 0 }")
+        drag(page, SLIDER, 10, pixels=2, pause=30)
+        page.wait_for_function("() => window.in_place > window.last_move")
+        waits.append(page.evaluate("() => window.in_place - window.last_move") / 1000)
+        page.mouse.up()
+        page.get_by_role("button", name="Undo (Ctrl+Z)").click()
+        page.wait_for_timeout(1500)
+    tell(float(np.median(waits)), "last move to stretches on all sliders, median")
+    tell(min(waits), "last move to stretches on all sliders, least")

@@ -8,11 +8,13 @@ import asyncio
 import os
 import signal
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import trackig_core as tig
 from tests.browser.conftest import chromium, wait_until_solved  # noqa: F401  (a fixture)
 from tests.dashboard.server.conftest import serving
 from tests.dashboard.server.test_hostile import disturb
@@ -20,7 +22,7 @@ from tests.visitor import Visitor
 
 SCALE = float(os.environ.get("TRACKIG_BENCH_SCALE", "1"))
 
-SECONDS = 20
+SECONDS = 20 * min(1.0, 2 * SCALE)
 """Time for which sessions move their sliders [s]."""
 
 PATIENCE = 120
@@ -29,6 +31,12 @@ PATIENCE = 120
 
 def sized(count):
     return max(1, round(count * SCALE))
+
+
+def run(coroutine):
+    """Return what a coroutine returns; this thread's event loop is the browser's."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, coroutine).result()
 
 
 def memory(served):
@@ -54,7 +62,7 @@ async def drag_politely(visitor, waits):
     while time.monotonic() < end:
         await visitor.move(round(chance.uniform(10, 40), 2))
         waits.append(await visitor.picture(PATIENCE))
-        await asyncio.sleep(0.1)
+        await visitor.answer(PATIENCE)
 
 
 async def drag_whatever_comes(visitor, waits):
@@ -91,12 +99,87 @@ def summary(waits):
 
 @pytest.mark.parametrize("count", [1, 10, 30])
 def test_polite_sessions(served, remark, count):
-    polite, _ = asyncio.run(load(served, sized(count), 0))
+    polite, _ = run(load(served, sized(count), 0))
     remark(f"{len(polite)} polite sessions: {summary(polite)}")
 
 
+def processor(served):
+    """Return the time for which a server has had a processor [s]."""
+    fields = Path(f"/proc/{served.process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def paper_run():
+    """Return the processor time of one paper run, the least of three [s]."""
+    spent = []
+    for _ in range(3):
+        began = time.process_time()
+        tig.solve(tig.PRESETS["booted-block-low-mass"])
+        spent.append(time.process_time() - began)
+    return min(spent)
+
+
+async def longest_silence(visitor, until):
+    """Return the longest that a visitor's questions went without an answer until something is done [s]."""
+    longest = 0.0
+    while not until.done():
+        began = time.perf_counter()
+        await visitor.send("SERVER-INFO-REQ", {})
+        await visitor.receive("SERVER-INFO-REPLY")
+        longest = max(longest, time.perf_counter() - began)
+        await asyncio.sleep(0.005)
+    return longest
+
+
+def test_opening(served, remark):
+    async def come():
+        beside = await Visitor(served.host + "/dashboard").open()
+        await asyncio.sleep(3)
+        spent, silences = [], []
+        for _ in range(sized(10)):
+            before = processor(served)
+            coming = asyncio.create_task(Visitor(served.host + "/dashboard").open())
+            silences.append(await longest_silence(beside, coming))
+            await asyncio.sleep(2)
+            spent.append(processor(served) - before)
+            coming.result().close()
+            await asyncio.sleep(1)
+        beside.close()
+        return min(spent), float(np.median(silences)), min(silences)
+
+    cost, usual, least = run(come())
+    remark(
+        f"opening costs {cost / paper_run():.1f} paper runs of processor time; meanwhile another session "
+        f"waits {1000 * usual:.0f} ms at most in the median, {1000 * least:.0f} ms at best"
+    )
+
+
+LIGHT = "?pad_loss_factor=0.02&boot_loss_factor=0.02"
+"""A track whose live runs take the longest."""
+
+
+@pytest.mark.parametrize("query", ["", LIGHT])
+def test_frames_beside_another_session(served, remark, query):
+    async def drag():
+        visitor = await Visitor(served.host + "/dashboard").open()
+        other = await Visitor(served.host + "/dashboard" + query).open()
+        shares = []
+        for _ in range(3):
+            alone, beside, others = [], [], []
+            await drag_politely(visitor, alone)
+            await asyncio.gather(drag_politely(visitor, beside), drag_politely(other, others))
+            shares.append(len(beside) / len(alone))
+        visitor.close()
+        other.close()
+        return shares
+
+    what = "a lightly damped track" if query else "an ordinary track"
+    shares = ", ".join(f"{share:.0%}" for share in run(drag()))
+    remark(f"beside a session that drags {what}, another keeps {shares} of its frames")
+
+
 def test_flooding_sessions_and_a_polite_one_beside_them(served, remark):
-    polite, flooding = asyncio.run(load(served, 1, sized(10)))
+    polite, flooding = run(load(served, 1, sized(10)))
     remark(f"{len(flooding)} flooding sessions: {summary(flooding)}; a polite one beside: {summary(polite)}")
 
 
@@ -110,7 +193,7 @@ def test_thirty_open_the_link_at_once(served, remark):
 
         return await asyncio.gather(*(one() for _ in range(sized(30))))
 
-    waits = asyncio.run(come())
+    waits = run(come())
     remark(f"{len(waits)} open at once: median {np.median(waits):.1f} s, last {max(waits):.1f} s")
 
 
@@ -127,7 +210,7 @@ def test_memory_comes_back(served, remark):
         await asyncio.sleep(60)
         return before, most, memory(served)
 
-    before, most, after = asyncio.run(come_and_go())
+    before, most, after = run(come_and_go())
     remark(f"memory: {before:.0f} MB, {most:.0f} MB with {sized(30)} sessions, {after:.0f} MB a minute later")
     assert after < 1.15 * before
 
@@ -142,7 +225,7 @@ def test_churn_leaves_no_slope(served, remark):
         await asyncio.sleep(60)
         return seen, memory(served)
 
-    seen, after = asyncio.run(churn())
+    seen, after = run(churn())
     half = len(seen) // 2
     slope = np.polyfit(np.arange(half, len(seen)), seen[half:], 1)[0] if half > 1 else 0.0
     remark(f"churn of {len(seen)}: {slope:+.2f} MB a session in the second half, {after:.0f} MB after")
@@ -150,10 +233,14 @@ def test_churn_leaves_no_slope(served, remark):
 
 def test_nonsense(served, remark):
     count, before = sized(10_000), memory(served)
-    connections, answers = asyncio.run(disturb(served.host + "/dashboard", 0, count))
+    said = len(served.log.read_text().splitlines())
+    connections, answers = run(disturb(served.host + "/dashboard", 0, count))
     assert all(each["traceback"] is None for each in answers)
+    log = served.log.read_text()
+    assert "Traceback" not in log
     remark(
-        f"{count} messages of nonsense: {connections} connections cut off or ended, {len(answers)} refused; "
+        f"{count} messages of nonsense: {connections} connections, {len(answers)} messages refused, "
+        f"{len(log.splitlines()) - said} lines in the log; "
         f"memory {before:.0f} to {memory(served):.0f} MB"
     )
 
@@ -182,4 +269,4 @@ def test_thirty_come_back_after_a_crash(tmp_path, remark):
         return time.monotonic() - began
 
     with serving(tmp_path, "--processes", "2") as running:
-        remark(f"{sized(30)} pages come back after kill -9 in {asyncio.run(crash(running)):.1f} s")
+        remark(f"{sized(30)} pages come back after kill -9 in {run(crash(running)):.1f} s")

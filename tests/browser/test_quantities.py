@@ -11,6 +11,7 @@ import trackig_core as tig
 from dashboard.client.quantities import SCRIPT
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
+from dashboard.session.shelf import Shelf
 from dashboard.theme import COMPLIES, QUANTITIES_CSS
 from dashboard.views.sidebar import Controls
 from tests.browser.test_dashboard import box, drag, levels, slider, thumb_of, wait_for_levels
@@ -47,9 +48,16 @@ class Panel:
 
     def __init__(self, page, **changes):
         self.page, self.inputs = page, DesignInputs()
-        self.state = Controls(self.inputs, Outcome()).quantities.state
-        groups = Controls(self.inputs, Outcome()).quantities.groups
-        properties = {"groups": groups, "state": self.state, "feasible": {}, "chips": {}, **changes}
+        self.state = Controls(self.inputs, Outcome(), Shelf()).quantities.state
+        groups = Controls(self.inputs, Outcome(), Shelf()).quantities.groups
+        properties = {
+            "groups": groups,
+            "state": self.state,
+            "feasible": {},
+            "chips": {},
+            "catalogue": {},
+            **changes,
+        }
         page.evaluate(SHOW, [SCRIPT.read_text(encoding="utf-8"), QUANTITIES_CSS, properties])
 
     @property

@@ -1,7 +1,6 @@
 """Fixtures of the dashboard's tests: real pictures, each solved once, and a store without a solver."""
 
 import dataclasses
-from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
 import panel as pn
@@ -9,6 +8,7 @@ import param
 import pytest
 
 import trackig_core as tig
+from dashboard.compute.fair import FairExecutor
 from dashboard.compute.store import SolutionStore
 from dashboard.compute.workers import AT_REST, solve_summary
 from dashboard.persistence.snapshot import SessionSnapshot
@@ -58,8 +58,8 @@ def make_store():
     """Return a function that makes stores, closed after the test."""
     stores = []
 
-    def make(solve, capacity=8, workers=2):
-        stores.append(SolutionStore(solve, ThreadPoolExecutor(max_workers=workers), capacity))
+    def make(solve, capacity=8, workers=2, spare=0):
+        stores.append(SolutionStore(solve, FairExecutor(workers, spare=spare), capacity))
         return stores[-1]
 
     yield make

@@ -1,6 +1,7 @@
 """What is computed of a design or a solution beside its gain: causes, errors, shapes, comparisons."""
 
 from trackig_core.analysis.asymptotes import Asymptote, MeasuredSlope, gain_asymptotes, measured_slopes
+from trackig_core.analysis.curve_fit import CurveFit, curve_fit
 from trackig_core.analysis.damping import (
     LOSS_FACTORS,
     DampingCurve,
@@ -9,6 +10,7 @@ from trackig_core.analysis.damping import (
     with_loss_factor,
 )
 from trackig_core.analysis.frequency_sweep import Departure, FrequencySweep, departure, frequency_sweep
+from trackig_core.analysis.ladder import Ladder, Rung, ladder
 from trackig_core.analysis.lumped import (
     GOOD_ENOUGH,
     LumpedComparison,
@@ -47,21 +49,25 @@ __all__ = [
     "GOOD_ENOUGH",
     "LOSS_FACTORS",
     "Asymptote",
+    "CurveFit",
     "DampingCurve",
     "Departure",
     "FrequencySweep",
+    "Ladder",
     "Lattice",
     "LumpedComparison",
     "LumpedFrequencies",
     "MeasuredSlope",
     "Motion",
     "PeerReceptance",
+    "Rung",
     "StaticResponse",
     "SteadyShape",
     "StiffReferences",
     "TrackResponse",
     "Verification",
     "compare_with_beam",
+    "curve_fit",
     "cut_on",
     "damping_curves",
     "departure",
@@ -71,6 +77,7 @@ __all__ = [
     "frequency_sweep",
     "gain_asymptotes",
     "gain_by_loss_factor",
+    "ladder",
     "limited_deflection",
     "lumped_frequencies",
     "lumped_insertion_gain",

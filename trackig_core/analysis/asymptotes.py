@@ -155,7 +155,7 @@ def measured_slopes(design: Track, summation: str = "energy") -> tuple[MeasuredS
     ValueError
         If ``summation`` is not one of the choices.
     """
-    model = track_model(design)
+    model = track_model(design).simplified
     require_damping(model)
     lines = gain_asymptotes(model, summation=summation)
     return tuple(

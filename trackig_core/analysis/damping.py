@@ -99,7 +99,7 @@ def with_loss_factor(design: Track, loss_factor: float) -> TrackDesign:
 def gain_by_loss_factor(
     design: Track,
     loss_factors: Iterable[float] = LOSS_FACTORS,
-    reference: str = "line",
+    reference: str | None = None,
     summation: str = "energy",
 ) -> RealArray:
     """Return the exact insertion gain of a design at several loss factors.
@@ -110,7 +110,9 @@ def gain_by_loss_factor(
         The track.
     loss_factors : sequence of float (factors,)
         Loss factors of pads and boots alike [-].
-    reference, summation : str
+    reference : str, optional
+        As for :func:`trackig_core.solve`.
+    summation : str
         As for :func:`trackig_core.insertion_gain`.
 
     Returns

@@ -13,7 +13,8 @@ stiff as n = 2 / (beta L) supports side by side. The lumped model puts the wheel
 Statically this is the beam on its foundation. The rail keeps the stiffness of beta but has no mass, so that
 contact spring and pads are one spring, k_u, and two degrees of freedom remain. n is that of the
 stiffnesses at 50 Hz, at every frequency; a load never stands on less than one support. Waves, which
-carry vibration along the rail, have no place in it. SI units, Hz, dB.
+carry vibration along the rail, have no place in it, nor have suspension, other axles and ground that
+yields: a design is taken as the paper's simplified model of it. SI units, Hz, dB.
 
 Coupled and uncoupled frequencies: with a = k_u/m_w, b = k_b/m_b and c = k_u/(n m_b), the coupled
 pair solves p(x) = x^2 - (a + b + c) x + a b = 0, x = w^2. Since p(a) = -a c < 0 and p(b) = -b c < 0, both
@@ -38,6 +39,7 @@ from trackig_core.frequency_domain.refinement import (
     banded_gain,
     refined_spectrum,
     require_damping,
+    stiff_spectrum,
 )
 from trackig_core.frequency_domain.track_model import Track, TrackModel, once_per_model, track_model
 from trackig_core.levels.insertion_gain import insertion_gain
@@ -195,7 +197,7 @@ def lumped_spectrum(design: Track, frequency: ArrayLike, step: float = DEFAULT_S
     """
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
     squared = (2 * np.pi * frequency) ** 2
-    model = track_model(design)
+    model = track_model(design).simplified
     track, support = model.design, model.supports(frequency)
     passed: ComplexArray | float = 1.0
     if support.boot is not None and support.inertia is not None:
@@ -234,11 +236,12 @@ def lumped_insertion_gain(design: Track, reference: str = "line", summation: str
     ValueError
         If ``reference`` or ``summation`` is not one of the choices.
     """
-    model = track_model(design)
+    model = track_model(design).simplified
     require_damping(model)
     lowest = lumped_frequencies(model).coupled[0]
+    stiff = stiff_spectrum(model.design) if reference == "stiff" else None
     spectrum = refined_spectrum(lambda between: lumped_spectrum(model, between), band_frequencies(lowest))
-    return insertion_gain(spectrum, model.design, lowest, reference, summation)
+    return insertion_gain(spectrum, model.design, lowest, reference, summation, stiff=stiff)
 
 
 def compare_with_beam(design: Track, reference: str = "line", summation: str = "energy") -> LumpedComparison:
@@ -263,7 +266,7 @@ def compare_with_beam(design: Track, reference: str = "line", summation: str = "
     ValueError
         If ``reference`` or ``summation`` is not one of the choices.
     """
-    model = track_model(design)
+    model = track_model(design).simplified
     lumped = lumped_insertion_gain(model, reference, summation).levels
     beam = banded_gain(model, reference=reference, summation=summation).levels
     return LumpedComparison(lumped, beam, np.abs(lumped - beam) <= GOOD_ENOUGH)

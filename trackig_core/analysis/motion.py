@@ -2,7 +2,8 @@
 
 A run as at live fidelity (see :mod:`trackig_core.time_domain.adaptive_grid`), short, that records every
 rail element and every block near the wheel. Frames are samples of the low-passed displacements, SI units,
-positive towards the ground; the track to the left of the wheel is the mirror image of that to the right.
+positive towards the ground; the track to the left of one wheel is the mirror image of that to the right. The
+step reaches several wheels each with its delay, or all at once where their roughness is independent.
 The wheel begins one step below a rail at rest, squeezing the contact spring (see
 :mod:`trackig_core.track.design`); the filter rounds that jump off over the millisecond around time zero.
 Nothing is interpolated, in time or along the rail.
@@ -14,10 +15,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from trackig_core.arrays import RealArray
+from trackig_core.frequency_domain.axles import wheel_elements
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.time_domain import adaptive_grid
 from trackig_core.time_domain.decimation import RECORD_RATE
-from trackig_core.time_domain.grid import Grid, make_grid
+from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, fewest_bays, make_grid
 from trackig_core.time_domain.time_stepping import Probes, Run
 from trackig_core.track.design import DEFAULT_STEP
 
@@ -36,18 +38,20 @@ MOST_BAYS = 60
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Displacements after the step, from the wheel to one side.
+    """Displacements after the step: to one side of a wheel that stands alone over a support, else to both.
 
     Attributes
     ----------
     time : numpy.ndarray (frames,) [s]
         Time of each frame; it begins shortly before zero because the low-pass filter looks ahead.
     position : numpy.ndarray (elements,) [m]
-        Rail elements, counted from the wheel.
+        Rail elements, counted from support 0.
     support_position : numpy.ndarray (supports,) [m]
-        Supports, counted from the wheel.
-    wheel : numpy.ndarray (frames,) [m]
-        Displacement of the wheel.
+        Supports, counted from support 0.
+    wheel_position : numpy.ndarray (wheels,) [m]
+        Wheels, on the rail elements on which they stand.
+    wheels : numpy.ndarray (frames, wheels) [m]
+        Displacement of the wheels.
     rail : numpy.ndarray (frames, elements) [m]
         Displacement of the rail.
     block : numpy.ndarray (frames, supports) [m] or None
@@ -59,10 +63,16 @@ class Motion:
     time: RealArray = field(repr=False)
     position: RealArray = field(repr=False)
     support_position: RealArray = field(repr=False)
-    wheel: RealArray = field(repr=False)
+    wheel_position: RealArray = field(repr=False)
+    wheels: RealArray = field(repr=False)
     rail: RealArray = field(repr=False)
     block: RealArray | None = field(repr=False)
     step: float
+
+    @property
+    def wheel(self) -> RealArray:
+        """Displacement of the first wheel (frames,) [m]."""
+        return self.wheels[:, 0]
 
 
 def film(
@@ -78,7 +88,7 @@ def film(
     design : TrackDesign or TrackModel
         The track.
     bays : int
-        Bays to one side of the wheel, 1 to 60.
+        Bays to one side of the wheel, or to either side of the outermost, 1 to 60.
     step : float
         Step that squeezes the contact spring [m].
     cancelled : callable, optional
@@ -104,18 +114,22 @@ def film(
         raise ValueError(f"bays = {bays!r}: give a whole number from 1 to {MOST_BAYS}")
     model = track_model(design)
     grid = film_grid(model, bays)
-    elements = np.arange(bays * grid.elements_per_bay + 1)
-    supports = np.arange(bays + 1)
+    per_bay = grid.elements_per_bay
+    on = np.array(wheel_elements(model.design, per_bay))
+    first = 0 if grid.symmetric else on.min() // per_bay - bays
+    supports = np.arange(first, -(-on.max() // per_bay) + bays + 1)
+    elements = np.arange(supports[0] * per_bay, supports[-1] * per_bay + 1)
     probes = Probes(rail=tuple(elements), blocks=tuple(supports))
     run = Run(model, grid, memory_order=adaptive_grid.MEMORY_ORDER, step=step, probes=probes)
     samples = run.collect(grid.steps, cancelled=cancelled)
-    moved = samples[::STRIDE, grid.half_bays :]
-    wheel, rail, block = np.split(moved, [1, 1 + elements.size], axis=1)
+    moved = samples[::STRIDE, grid.stored_bays :]
+    wheels, rail, block = np.split(moved, [on.size, on.size + elements.size], axis=1)
     return Motion(
         time=run.filter.times(len(samples))[::STRIDE],
         position=elements.astype(np.float64) * grid.dx,
         support_position=supports.astype(np.float64) * model.design.fastener_spacing,
-        wheel=wheel[:, 0],
+        wheel_position=on * grid.dx,
+        wheels=wheels,
         rail=rail,
         block=block if model.design.two_stage else None,
         step=step,
@@ -146,4 +160,5 @@ def film_grid(design: Track, bays: int) -> Grid:
     chosen = adaptive_grid.plan(model).grid
     # the record is whole frames long, whatever the time step
     record = round(DURATION * RECORD_RATE) / RECORD_RATE
-    return make_grid(model, chosen.dt, bays=max(chosen.bays, 2 * bays + 1), record=record)
+    shown = 2 * bays + fewest_bays(model) - FEWEST_BAYS
+    return make_grid(model, chosen.dt, bays=max(chosen.bays, shown + 1), record=record)

@@ -100,7 +100,7 @@ def stiff_references(design: Track, frequency: ArrayLike) -> StiffReferences:
     DesignError
         If the design's exact answer has no bound, for want of any loss.
     """
-    model = track_model(design)
+    model = track_model(design).simplified
     require_damping(model)
     track = model.design
     resonance = float(np.sqrt(track.contact_stiffness / track.wheel_mass) / (2 * np.pi))

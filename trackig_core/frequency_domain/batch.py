@@ -5,6 +5,7 @@ solved as ``solve(design, "exact")`` does, within 0.01 dB; the compiled code sta
 :mod:`trackig_core.frequency_domain.batch_kernels`.
 """
 
+import numbers
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -19,15 +20,26 @@ from trackig_core.arrays import AnyArray, BoolArray, RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS, LINE_FRACTION, decibels
 from trackig_core.frequency_domain import batch_kernels as kernels
 from trackig_core.frequency_domain.kernel_rows import law_row
+from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
+from trackig_core.frequency_domain.refinement import banded_spectrum, gain_of, stiff_spectrum
 from trackig_core.frequency_domain.static_lattice import (
     bending_stiffness,
     point_compliance,
     support_stiffness,
 )
-from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice
+from trackig_core.frequency_domain.track_model import track_model
+from trackig_core.levels.insertion_gain import (
+    REFERENCES,
+    SUMMATIONS,
+    check_choice,
+    integrate_bands,
+    rigid_band_energy,
+    summed_energy,
+)
 from trackig_core.results import SolveCancelled
 from trackig_core.track.damping_table import interpolated_terms
 from trackig_core.track.design import (
+    ONE_AXLE,
     RANGES,
     REFERENCE_FREQUENCY,
     DesignError,
@@ -49,6 +61,12 @@ Shape: TypeAlias = tuple[int, ...]
 
 FIELDS = tuple(each.name for each in fields(TrackDesign))
 """Fields of a design, in order."""
+
+SURROUNDINGS = ("suspension", "axle_positions", "speed", "ground")
+"""Fields that are off by default."""
+
+STIFF_FIELDS = ("fastener_spacing", "wheel_mass", "rail", *SURROUNDINGS)
+"""Fields on which the very stiff reference track depends."""
 
 CHUNK = 256
 """Designs that a thread solves at a time [-]: some 10 ms, after which progress is reported."""
@@ -79,7 +97,8 @@ class BatchSolution:
     energy_ratio : numpy.ndarray of float32 (..., 2, 21) [-]
         Band energy over that of the exact rigid track: energy sum, coherent sum.
     line_ratio : numpy.ndarray (..., 2) [-]
-        Height of the straight reference line over the exact rigid track: energy sum, coherent sum.
+        Height of the reference line over the exact rigid track: energy sum, coherent sum; NaN on ground that
+        yields.
     reference, summation : str
         Definition of :attr:`insertion_gain`.
     wheel_load : float [N]
@@ -107,12 +126,12 @@ class BatchSolution:
         return self.gain_for(self.reference, self.summation)
 
     def gain_for(self, reference: str = "line", summation: str = "energy") -> RealArray:
-        """Return the insertion gain for any of the four definitions, without solving again.
+        """Return the insertion gain for any definition, without solving the designs again.
 
         Parameters
         ----------
         reference : str
-            ``"line"`` or ``"rigid"``, see :func:`trackig_core.solve`.
+            ``"line"``, ``"rigid"`` or ``"stiff"``, see :func:`trackig_core.solve`.
         summation : str
             ``"energy"`` or ``"coherent"``.
 
@@ -124,9 +143,9 @@ class BatchSolution:
         Raises
         ------
         ValueError
-            If a choice is not one of the above.
+            If a choice is not one of the above, or the reference has no meaning for one of the designs.
         """
-        check_choice("reference", reference, REFERENCES)
+        _check_reference(self.columns, reference)
         check_choice("summation", summation, SUMMATIONS)
         kind = SUMMATIONS.index(summation)
         levels = self.energy_ratio[..., kind, :].astype(float)
@@ -134,7 +153,26 @@ class BatchSolution:
         levels *= 10
         if reference == "line":
             levels -= decibels(self.line_ratio[..., kind, None])
+        elif reference == "stiff":
+            levels -= decibels(self._stiff_ratio[..., kind, :])
         return levels
+
+    @cached_property
+    def _stiff_ratio(self) -> RealArray:
+        """Band energy of the very stiff reference tracks over that of the exact rigid track (..., 2, 21) [-].
+
+        Designs that differ in supports alone have the same reference, which is computed once.
+        """
+        columns = [self.columns[name].flat for name in STIFF_FIELDS]
+        known: dict[tuple[object, ...], RealArray] = {}
+        rows = []
+        for place, key in enumerate(zip(*columns, strict=True)):
+            if key not in known:
+                row = {name: values.flat[place] for name, values in self.columns.items()}
+                known[key] = _stiff_over_rigid(_design(row))
+            rows.append(known[key])
+        shape = self.loaded_track.shape
+        return np.array(rows).reshape(*shape, len(SUMMATIONS), len(BAND_CENTRES))
 
     @cached_property
     def rail_deflection(self) -> RealArray:
@@ -176,7 +214,8 @@ class BatchSolution:
         """
         import pandas as pd
 
-        columns = {name: values.ravel() for name, values in self.columns.items()}
+        shown = [name for name in FIELDS if name not in SURROUNDINGS or _is_on(name, self.columns[name])]
+        columns = {name: self.columns[name].ravel() for name in shown}
         columns["rail"] = np.array([rail.name for rail in columns["rail"]])
         columns["loaded_track"] = self.loaded_track.ravel()
         columns["coupled_block"] = self.coupled_block.ravel()
@@ -188,7 +227,7 @@ class BatchSolution:
 def solve_many(
     base: TrackDesign | Sequence[TrackDesign] | None = None,
     *,
-    reference: str = "line",
+    reference: str | None = None,
     summation: str = "energy",
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
@@ -199,12 +238,16 @@ def solve_many(
 ) -> BatchSolution:
     """Compute the insertion gain and natural frequencies of many tracks, as ``solve(design, "exact")`` does.
 
+    Designs of one unsprung wheel on rigid ground are solved by compiled code, hundreds in the time that one
+    with a suspension, several axles or ground that yields takes; those are solved one by one.
+
     Parameters
     ----------
     base : TrackDesign or sequence of TrackDesign
         The design whose fields are varied, or all designs themselves.
-    reference : str
-        ``"line"`` or ``"rigid"``; the result has the gain for either.
+    reference : str, optional
+        As for :func:`trackig_core.solve`; the result has the gain for each. By default the line, or if any
+        design stands on ground that yields, the very stiff track.
     summation : str
         ``"energy"`` or ``"coherent"``; the result has the gain for either.
     threads : int, optional
@@ -233,9 +276,9 @@ def solve_many(
     SolveCancelled
         If ``cancelled`` answered true.
     ValueError
-        If a choice is not one of the above, or shapes do not broadcast.
+        If a choice is not one of the above, a reference has no meaning for one of the designs, or shapes do
+        not broadcast.
     """
-    check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
     wheel_load = check_number("wheel_load", wheel_load)
     if isinstance(base, TrackDesign):
@@ -244,6 +287,9 @@ def solve_many(
         raise ValueError(f"{next(iter(arrays))}: give one design as base to vary its fields")
     else:
         columns = _columns_of(designs if base is None else base)
+    if reference is None:
+        reference = "stiff" if _is_on("ground", columns["ground"]) else "line"
+    _check_reference(columns, reference)
     shape = columns["rail"].shape
     count = columns["rail"].size
     rows = {
@@ -308,12 +354,29 @@ def _columns_of(designs: Iterable[TrackDesign] | None) -> Columns:
     for row, design in enumerate(designs):
         if not isinstance(design, TrackDesign):
             raise DesignError("design", design, "a TrackDesign, such as PRESETS['slab-track']", row)
-    return {name: _column([getattr(design, name) for design in designs]) for name in FIELDS}
+    return {name: _column([getattr(design, name) for design in designs], name) for name in FIELDS}
+
+
+def _is_on(name: str, values: AnyArray) -> bool:
+    """Return whether any design has a suspension, several axles, a speed or ground that yields."""
+    off = ONE_AXLE if name == "axle_positions" else None
+    return any(each != off for each in values.flat)
+
+
+def _check_reference(columns: Columns, reference: str) -> None:
+    """Raise a ValueError if there is no such reference, or if it has no meaning for one of the designs."""
+    check_choice("reference", reference, REFERENCES)
+    if reference != "stiff" and _is_on("ground", columns["ground"]):
+        row = next(place for place, each in enumerate(columns["ground"].flat) if each is not None)
+        raise ValueError(
+            f"reference = {reference!r}: give 'stiff', for row {row} stands on ground that yields, and "
+            "against a rigid track the ground's own amplification would count as the track's"
+        )
 
 
 def _varied(base: TrackDesign, arrays: Mapping[str, object]) -> Columns:
     """Return the fields of a design, some of them varied, as checked columns of one shape."""
-    given = {name: _column(values) for name, values in arrays.items()}
+    given = {name: _column(values, name) for name, values in arrays.items()}
     shape = np.broadcast_shapes((1,), *(values.shape for values in given.values()))
     given = {name: np.broadcast_to(values, shape) for name, values in given.items()}
     if np.prod(shape):
@@ -331,7 +394,7 @@ def _varied(base: TrackDesign, arrays: Mapping[str, object]) -> Columns:
         for place, rail in enumerate(rails.flat):
             if not isinstance(rail, Rail):
                 raise _in_row(DesignError("rail", rail, "a Rail, such as RAILS['60']"), place, shape)
-    columns = {name: np.broadcast_to(_column(getattr(base, name)), shape) for name in FIELDS} | given
+    columns = {name: np.broadcast_to(_column(getattr(base, name), name), shape) for name in FIELDS} | given
     if "boot_static_stiffness" not in given:  # it leaves with its boot
         missing = _missing(columns["boot_stiffness"])
         if missing.any():
@@ -357,15 +420,27 @@ def _checked(make: Callable[[], object], place: int, shape: Shape) -> None:
         raise _in_row(error, place, shape) from None
 
 
-def _column(values: Any) -> AnyArray:
+def _column(values: Any, name: str) -> AnyArray:
     """Return values as an array of floats, or else of objects."""
     if isinstance(values, Rail):
         values = [values]
+    if name == "axle_positions":
+        return _axle_column(values)
     array = np.asarray(values)
     if array.dtype.kind in "iuf":
         return array.astype(float, copy=False)
     if array.dtype != object:
         array = array.astype(object)
+    return array
+
+
+def _axle_column(values: Any) -> AnyArray:
+    """Return positions of axles, or a sequence of them, as an array of tuples."""
+    rows = list(values)
+    if not rows or isinstance(rows[0], numbers.Number):
+        rows = [rows]
+    array = np.empty(len(rows), dtype=object)
+    array[:] = [None if row is None else tuple(row) for row in rows]
     return array
 
 
@@ -405,6 +480,61 @@ def _design(row: Mapping[str, Any]) -> TrackDesign:
 
 def _solved(columns: Columns) -> dict[str, AnyArray]:
     """Solve a chunk of designs (n,); errors name the row within."""
+    others = [
+        row
+        for row, (suspension, positions, ground) in enumerate(
+            zip(columns["suspension"], columns["axle_positions"], columns["ground"], strict=True)
+        )
+        if not (suspension is ground is None and positions == ONE_AXLE)
+    ]
+    if not others:
+        return _solved_simplified(columns)
+    count = len(columns["rail"])
+    rows = {row: _solved_alone(columns, row) for row in others}
+    plain = np.setdiff1d(np.arange(count), others)
+    if plain.size:
+        try:
+            found = _solved_simplified({name: values[plain] for name, values in columns.items()})
+        except DesignError as error:
+            error_row = int(plain[cast("int", error.row)])
+            raise DesignError(error.field, error.value, error.allowed, error_row) from None
+        rows |= {int(row): {name: found[name][place] for name in found} for place, row in enumerate(plain)}
+    return {name: np.array([rows[row][name] for row in range(count)]) for name in rows[others[0]]}
+
+
+def _solved_alone(columns: Columns, row: int) -> dict[str, Any]:
+    """Solve one design of a chunk with all that stands around it."""
+    try:
+        model = track_model(_design({name: values[row] for name, values in columns.items()}))
+        spectrum = banded_spectrum(model)
+    except DesignError as error:
+        raise DesignError(error.field, error.value, error.allowed, row) from None
+    rigid = rigid_band_energy(model.design, spectrum.step)
+    frequencies = natural_frequencies(model)
+    energies = [summed_energy(spectrum, summation) for summation in SUMMATIONS]
+    lines = np.full(len(SUMMATIONS), np.nan)
+    if model.design.ground is None:
+        gains = [gain_of(model, spectrum, "line", summation) for summation in SUMMATIONS]
+        lines = np.array([gain.reference_energy[0] / rigid[0] for gain in gains])
+    block = frequencies.coupled_block
+    return {
+        "loaded_track": frequencies.loaded_track,
+        "coupled_block": np.nan if block is None else block,
+        "resolved": spectrum.frequency.size <= kernels.MOST_FREQUENCIES,
+        "energy_ratio": np.array([integrate_bands(spectrum.frequency, each) for each in energies]) / rigid,
+        "line_ratio": lines,
+    }
+
+
+def _stiff_over_rigid(design: TrackDesign) -> RealArray:
+    """Return band energy of a design's very stiff reference over that of the rigid track (2, 21) [-]."""
+    stiff = stiff_spectrum(design)
+    energies = [integrate_bands(stiff.frequency, summed_energy(stiff, summation)) for summation in SUMMATIONS]
+    return np.array(energies) / rigid_band_energy(design, stiff.step)
+
+
+def _solved_simplified(columns: Columns) -> dict[str, AnyArray]:
+    """Solve a chunk of designs (n,), one unsprung wheel and rigid ground each; errors name the row within."""
     tracks = _tracks(columns)
     count = len(tracks)
     energy, heights = np.empty((count, 2, len(BAND_CENTRES))), np.empty((count, 2))

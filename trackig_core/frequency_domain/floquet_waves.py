@@ -18,10 +18,12 @@ from numpy.typing import ArrayLike
 
 from trackig_core.arrays import AnyArray, ComplexArray, RealArray
 from trackig_core.frequency_domain import kernels
+from trackig_core.frequency_domain.axles import contact_forces, loaded_rail
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.timoshenko import FreeBeam
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.results import ForceSpectrum
+from trackig_core.track.design import ONE_AXLE
 from trackig_core.track.fields import DesignError
 
 NEPER = 20 / np.log(10)
@@ -198,7 +200,9 @@ def receptance(
 
 
 def contact_force(design: Track, frequency: ArrayLike, lattice: Lattice = INFINITE) -> ComplexArray:
-    """Return the contact force per unit roughness between wheel and rail.
+    """Return the contact force per unit roughness between rail and one wheel over support 0.
+
+    A design's other axles are left out; see :func:`trackig_core.frequency_domain.axles.contact_forces`.
 
     Parameters
     ----------
@@ -215,18 +219,20 @@ def contact_force(design: Track, frequency: ArrayLike, lattice: Lattice = INFINI
         Contact force per unit roughness [N/m].
     """
     model = track_model(design)
-    return _contact_force(model, waves(model, frequency, lattice))
+    return _contact_force(model, waves(model, frequency, lattice), lattice)
 
 
-def _contact_force(model: TrackModel, rail: Waves) -> ComplexArray:
-    wheel = -1 / (model.design.wheel_mass * rail.frequency_squared)
+def _contact_force(model: TrackModel, rail: Waves, lattice: Lattice) -> ComplexArray:
+    wheel = 1 / model.above(rail.frequency, lattice)
     return 1 / (1 / model.design.contact_stiffness + rail.receptance() + wheel)
 
 
 def support_force(
     design: Track, frequency: ArrayLike, support: ArrayLike = 0, lattice: Lattice = INFINITE
 ) -> ComplexArray:
-    """Return the force that a support passes into the ground per unit roughness.
+    """Return the force that a support passes into the ground per unit roughness under one wheel.
+
+    The wheel stands over support 0; a design's other axles are left out.
 
     Parameters
     ----------
@@ -246,7 +252,7 @@ def support_force(
     """
     model = track_model(design)
     rail = waves(model, frequency, lattice)
-    return _contact_force(model, rail) * rail.transfer * rail.receptance(support)
+    return _contact_force(model, rail, lattice) * rail.transfer * rail.receptance(support)
 
 
 def block_to_rail(design: Track, frequency: RealArray) -> RealArray:
@@ -299,7 +305,18 @@ def exact_spectrum(
     model = track_model(design)
     rail = waves(model, frequency, lattice)
     # the step's own spectrum is 1/(i w), in discrete time dt/(1 - exp(-i w dt)): both of magnitude 1/w
-    per_receptance = np.abs(_contact_force(model, rail) * rail.transfer * step) ** 2 / rail.frequency_squared
+    if model.design.axle_positions != ONE_AXLE:
+        loaded = loaded_rail(model, rail, lattice)
+        forces = contact_forces(model, loaded, lattice)
+        per_displacement = np.abs(rail.transfer * step) ** 2 / rail.frequency_squared
+        return ForceSpectrum(
+            frequency=rail.frequency,
+            energy=per_displacement * loaded.energy_sum(forces),
+            coherent_energy=per_displacement * np.sum(np.abs(loaded.coherent_sum(forces)) ** 2, axis=0),
+            step=step,
+        )
+    per_receptance = np.abs(_contact_force(model, rail, lattice) * rail.transfer * step) ** 2
+    per_receptance = per_receptance / rail.frequency_squared
     return ForceSpectrum(
         frequency=rail.frequency,
         energy=per_receptance * rail.energy_sum(),

@@ -81,6 +81,38 @@ class Lattice:
             return (2 * np.pi * frequency) ** 2
         return (2 / self.time_step * np.sin(np.pi * frequency * self.time_step)) ** 2
 
+    def derivative(self, frequency: RealArray) -> ComplexArray:
+        """Return the velocity per displacement that a vehicle's dashpots feel (frequencies,) [1/s].
+
+        In discrete time velocities stand half-way between displacements, and a dashpot feels the mean of the
+        velocity before and the velocity after.
+        """
+        rate = 2 * np.pi * frequency
+        if self.time_step is not None:
+            rate = np.sin(rate * self.time_step) / self.time_step
+        return np.asarray(1j * rate, dtype=complex)
+
+    def foot_derivative(self, frequency: RealArray) -> ComplexArray:
+        """Return the velocity per displacement at the foot of a support (frequencies,) [1/s].
+
+        In discrete time the foot follows the trapezoidal rule, which needs no mass to be stable.
+        """
+        rate = 2 * np.pi * frequency
+        if self.time_step is not None:
+            rate = np.tan(rate * self.time_step / 2) * 2 / self.time_step
+        return np.asarray(1j * rate, dtype=complex)
+
+    def delay(self, frequency: RealArray, time: float) -> ComplexArray:
+        """Return the factor by which roughness that comes later is delayed (frequencies,) [-].
+
+        In discrete time a step of roughness that comes between two instants is shared out between them.
+        """
+        if self.time_step is None:
+            return np.exp(-2j * np.pi * frequency * time)
+        whole, part = divmod(time / self.time_step, 1.0)
+        one = np.exp(-2j * np.pi * frequency * self.time_step)
+        return one**whole * (1 - part + part * one)
+
 
 INFINITE = Lattice()
 """The infinite track in continuous time, three elements a bay."""

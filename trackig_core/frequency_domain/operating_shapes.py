@@ -20,14 +20,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.frequency_domain.axles import (
+    LoadedRail,
+    bay_shapes,
+    contact_forces,
+    loaded_rail,
+    wheel_elements,
+)
 from trackig_core.frequency_domain.floquet_waves import Waves, contact_force, waves
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
-from trackig_core.frequency_domain.timoshenko import FreeBeam
 from trackig_core.frequency_domain.track_model import Track, track_model
-from trackig_core.track.design import TrackDesign
-
-_FOURTH_DIFFERENCE = ((-2, 1.0), (-1, -4.0), (0, 6.0), (1, -4.0), (2, 1.0))
-"""Offset and weight of the neighbours by which a rail element is bent [-]."""
+from trackig_core.track.design import ONE_AXLE
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,15 +42,19 @@ class SteadyShape:
     frequency : numpy.ndarray (frequencies,) [Hz]
         Frequencies.
     position : numpy.ndarray (elements,) [m]
-        Rail elements, counted from the wheel.
+        Rail elements, counted from support 0, over which one wheel alone stands.
     rail : numpy.ndarray of complex (elements, frequencies) [-]
         Displacement of the rail, every element.
     support_position : numpy.ndarray (supports,) [m]
-        Supports, counted from the wheel.
+        Supports, counted from support 0.
     block : numpy.ndarray of complex (supports, frequencies) [-] or None
         Displacement of the blocks; None when single-stage.
-    wheel : numpy.ndarray of complex (frequencies,) [-]
-        Displacement of the wheel.
+    foot : numpy.ndarray of complex (supports, frequencies) [-] or None
+        Displacement of the supports' feet; None on rigid ground.
+    wheel_position : numpy.ndarray (wheels,) [m]
+        Wheels, on the rail elements on which they stand.
+    wheels : numpy.ndarray of complex (wheels, frequencies) [-]
+        Displacement of the wheels.
     """
 
     frequency: RealArray = field(repr=False)
@@ -55,22 +62,32 @@ class SteadyShape:
     rail: ComplexArray = field(repr=False)
     support_position: RealArray = field(repr=False)
     block: ComplexArray | None = field(repr=False)
-    wheel: ComplexArray = field(repr=False)
+    foot: ComplexArray | None = field(repr=False)
+    wheel_position: RealArray = field(repr=False)
+    wheels: ComplexArray = field(repr=False)
+
+    @property
+    def wheel(self) -> ComplexArray:
+        """Displacement of the first wheel (frequencies,) [-]."""
+        return self.wheels[0]
 
 
 def steady_shape(
     design: Track, frequency: ArrayLike, bays: int = 12, lattice: Lattice = INFINITE
 ) -> SteadyShape:
-    """Return how the track moves at given frequencies, some bays either side of the wheel.
+    """Return how the track moves at given frequencies, some bays either side of the wheels.
+
+    Several wheels meet the same roughness, each with its delay; where theirs is independent, the first alone
+    stands on roughness.
 
     Parameters
     ----------
     design : TrackDesign or TrackModel
-        The track and its wheel.
+        The track and its wheels.
     frequency : array_like (frequencies,)
         Frequencies [Hz], greater than zero.
     bays : int
-        Bays to either side of the wheel, one or more.
+        Bays to either side of the outermost wheels, one or more.
     lattice : Lattice
         What to solve.
 
@@ -87,22 +104,37 @@ def steady_shape(
     if bays < 1:
         raise ValueError(f"bays = {bays!r}: give a whole number, 1 or more")
     per_bay = lattice.elements_per_bay
-    elements = np.arange(-bays * per_bay, bays * per_bay + 1)
     frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
     model = track_model(design)
-    contact = contact_force(model, frequency, lattice)
-    rail = contact * rail_receptance(model, frequency, elements, lattice)
+    wheels = np.array(wheel_elements(model.design, per_bay))
+    first, last = wheels.min() // per_bay - bays, -(-wheels.max() // per_bay) + bays
+    elements = np.arange(first * per_bay, last * per_bay + 1)
+    if model.design.axle_positions == ONE_AXLE:
+        contact = contact_force(model, frequency, lattice)[None]
+        rail = contact[0] * rail_receptance(model, frequency, elements, lattice)
+    else:
+        loaded = loaded_rail(model, waves(model, frequency, lattice), lattice)
+        contact = contact_forces(model, loaded, lattice)[:, 0]
+        rail = np.array([_under_wheels(loaded, int(element), contact) for element in elements])
     supports = model.supports(frequency, lattice)
-    spacing, wheel_mass = model.design.fastener_spacing, model.design.wheel_mass
+    spacing, over = model.design.fastener_spacing, rail[::per_bay]
     return SteadyShape(
         frequency=frequency,
         position=elements * spacing / per_bay,
         rail=rail,
         support_position=(elements[::per_bay] // per_bay).astype(np.float64) * spacing,
-        block=None if supports.block is None else rail[::per_bay] * supports.pad / supports.block,
-        # the contact pushes the wheel up: -m w^2 W = -contact
-        wheel=contact / (wheel_mass * lattice.frequency_squared(frequency)),
+        block=None if supports.block is None else over * supports.pad / supports.block,
+        foot=None if supports.foot_to_rail is None else over * supports.foot_to_rail,
+        wheel_position=wheels * spacing / per_bay,
+        # the contact pushes the wheels up: D W = -contact
+        wheels=-contact / model.above(frequency, lattice),
     )
+
+
+def _under_wheels(loaded: LoadedRail, element: int, contact: ComplexArray) -> ComplexArray:
+    """Return the displacement of an element under contact forces (wheels, frequencies) [N]."""
+    receptances = np.array([loaded.receptance(element, wheel) for wheel in loaded.wheels])
+    return np.sum(receptances * contact, axis=0)
 
 
 def rail_receptance(
@@ -150,26 +182,3 @@ def _wave(track: Waves, shapes: ComplexArray, element: NDArray[np.int_]) -> Comp
     """Return both waves at given elements (elements, 2, frequencies) [-]."""
     bay, within = np.divmod(element, len(shapes))
     return shapes[within] * track.multipliers ** bay[..., None, None]
-
-
-def bay_shapes(design: TrackDesign, track: Waves, per_bay: int) -> ComplexArray:
-    """Return both waves within one bay, 1 over the support that it begins with (per_bay, 2, frequencies)."""
-    if track.rail == "timoshenko":
-        beam = FreeBeam.of(design.rail, track.frequency_squared)
-        return beam.bay_shapes(design.fastener_spacing, track.multipliers, per_bay)
-    dx = design.fastener_spacing / per_bay
-    inertia = design.rail.mass_per_metre * dx**4 / design.rail.bending_stiffness * track.frequency_squared
-    multipliers = track.multipliers
-    matrix = np.zeros((*multipliers.shape, per_bay - 1, per_bay - 1), dtype=complex)
-    load = np.zeros((*multipliers.shape, per_bay - 1, 1), dtype=complex)
-    for row in range(per_bay - 1):
-        matrix[..., row, row] -= inertia
-        for offset, weight in _FOURTH_DIFFERENCE:
-            bay, within = divmod(row + 1 + offset, per_bay)
-            share = weight * multipliers**bay
-            if within == 0:
-                load[..., row, 0] -= share
-            else:
-                matrix[..., row, within - 1] += share
-    between = np.linalg.solve(matrix, load)[..., 0]
-    return np.concatenate([np.ones((1, *multipliers.shape)), np.moveaxis(between, -1, 0)])

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from trackig_core.arrays import ComplexArray, IntArray, RealArray
+from trackig_core.frequency_domain.axles import bay_shapes
 from trackig_core.frequency_domain.floquet_waves import Waves, waves
 from trackig_core.frequency_domain.lattice import Lattice
-from trackig_core.frequency_domain.operating_shapes import bay_shapes
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.track.design import TrackDesign
 

@@ -5,13 +5,15 @@ solved by :mod:`trackig_core.frequency_domain.floquet_waves`.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from trackig_core.arrays import BoolArray, RealArray
-from trackig_core.bands import LINE_FRACTION, ONE_THIRD_OCTAVES, Bands
+from trackig_core.bands import LINE_FRACTION, ONE_THIRD_OCTAVES, WIDEST, Bands
 from trackig_core.frequency_domain import batch_kernels
+from trackig_core.frequency_domain.axles import wheel_delays
 from trackig_core.frequency_domain.batch_kernels import (
     MOST_FREQUENCIES,
     MOST_HALVINGS,
@@ -23,9 +25,22 @@ from trackig_core.frequency_domain.kernel_rows import recursion_row
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.natural_frequencies import loaded_track
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
-from trackig_core.levels.insertion_gain import insertion_gain
+from trackig_core.levels.insertion_gain import insertion_gain, own_reference
 from trackig_core.results import ForceSpectrum, InsertionGain
-from trackig_core.track.design import DEFAULT_STEP, DesignError
+from trackig_core.track.design import DEFAULT_STEP, ONE_AXLE, DesignError, TrackDesign
+
+STIFF_PAD = 1e13
+"""Pad of the very stiff reference track [N/m]."""
+
+STIFF_LOSS = 0.1
+"""Its loss factor [-]. It has next to nothing to lose, but without loss waves of the pinned-pinned shape
+would never die between supports far apart."""
+
+STIFF_CONTACT = 1e15
+"""Contact spring of the very stiff reference track [N/m]."""
+
+POINTS_PER_FRINGE = 8
+"""Frequencies per fringe of wheels that follow each other [-]."""
 
 
 def resolved_spectrum(
@@ -50,7 +65,7 @@ def resolved_spectrum(
         Energy at the given and the added frequencies.
     """
     model = track_model(design)
-    if model.causal and _is_compiled(lattice):
+    if model.is_simplified and model.causal and _is_compiled(lattice):
         axis, energy, coherent_energy = batch_kernels.resolve_row(
             model.row, *_stepping(model, lattice), frequency
         )
@@ -59,11 +74,10 @@ def resolved_spectrum(
 
 
 def _is_compiled(lattice: Lattice) -> bool:
-    """Return whether a lattice is refined by compiled code: those of bending rails, but for study only."""
-    if lattice.rail != "euler" or lattice.elements_per_bay != batch_kernels.ELEMENTS_PER_BAY:
-        return False
+    """Return whether compiled code refines a lattice: all whose rail only bends, but those for study."""
+    euler = lattice.rail == "euler" and lattice.elements_per_bay == batch_kernels.ELEMENTS_PER_BAY
     ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
-    return not ring_in_continuous_time
+    return euler and not ring_in_continuous_time
 
 
 def _stepping(model: TrackModel, lattice: Lattice) -> tuple[RealArray, float, int]:
@@ -139,13 +153,22 @@ def require_damping(design: Track) -> None:
         If the spring that stands on the ground has no loss.
     """
     model = track_model(design)
-    if model.springs[-1].lossless:
+    ground = model.design.ground
+    if ground is not None and ground.damping > 0:
+        return
+    if model.springs[-1].lossless or (ground is not None and ground.mass > 0):
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more than 0: without loss the exact spectrum has no bound")
 
 
 def _grounded_loss(model: TrackModel) -> tuple[str, object]:
-    """Return name and value of the loss factor of the spring that stands on the ground."""
+    """Return name and value of the loss of what stands on the ground: a spring, or a mass that moves with it.
+
+    A mass on the ground's spring alone lets waves run without loss at its own frequency.
+    """
+    ground = model.design.ground
+    if ground is not None and ground.mass > 0:
+        return "ground_damping", ground.damping
     field = "boot_loss_factor" if model.design.two_stage else "pad_loss_factor"
     return field, getattr(model.design, field)
 
@@ -207,15 +230,135 @@ def banded_spectrum(
     """
     model = track_model(design)
     require_damping(model)
-    spectrum = resolved_spectrum(model, band_frequencies(loaded_track(model), bands), step, lattice)
+    if model.design.speed is not None and len(model.design.axle_positions) > 1:
+        spectrum = _fringed(model, step, lattice, bands)
+    else:
+        first = band_frequencies(loaded_track(model), bands)
+        spectrum = resolved_spectrum(model, first, step, lattice)
     if not ((spectrum.energy > 0) & np.isfinite(spectrum.energy)).all():
         field, value = _grounded_loss(model)
         raise DesignError(field, value, "more loss: rounding drowns the exact spectrum of this design")
     return spectrum
 
 
+def _fringed(model: TrackModel, step: float, lattice: Lattice, bands: Bands) -> ForceSpectrum:
+    """Return the spectrum under wheels that follow each other over the same roughness.
+
+    Its peaks are those under independent roughness. The delays put fringes on them, as narrow as the inverse
+    of the longest delay and down to zero: a fixed number of frequencies shows each, where refinement would
+    not end.
+    """
+    independent = replace(model, design=model.design.replace(speed=None))
+    axis = banded_spectrum(independent, lattice, step, bands).frequency
+    delays = wheel_delays(model.design)
+    longest = 0.0 if delays is None else delays.max()
+    parts = np.ceil(np.diff(axis) * longest * POINTS_PER_FRINGE).astype(int).clip(1)
+    starts = zip(axis[:-1], axis[1:], parts, strict=True)
+    between = [np.linspace(low, high, count, endpoint=False) for low, high, count in starts]
+    return exact_spectrum(model, np.append(np.concatenate(between), axis[-1]), step, lattice)
+
+
+def very_stiff(design: TrackDesign) -> TrackDesign:
+    """Return the very stiff track that serves as a reference.
+
+    It has the same rail, ground, wheel and suspension; single-stage, its pads hardly yield and neither does
+    its contact, so that no resonance of its own lies in the bands (the paper's raised contact). Nor does that
+    of a wheel on the rail between supports: one wheel stands over a support, and counts for each of the
+    design's. On rigid ground it tends to the rigid track.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track to be compared with it.
+
+    Returns
+    -------
+    TrackDesign
+        The reference track.
+    """
+    return design.replace(
+        pad_stiffness=STIFF_PAD,
+        pad_loss_factor=STIFF_LOSS,
+        block_mass=None,
+        boot_stiffness=None,
+        boot_loss_factor=None,
+        contact_stiffness=STIFF_CONTACT,
+        axle_positions=ONE_AXLE,
+        speed=None,
+    )
+
+
+def stiff_spectrum(design: TrackDesign) -> ForceSpectrum:
+    """Return the spectrum of the very stiff reference track of a design, all its wheels together.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track to be compared with it.
+
+    Returns
+    -------
+    ForceSpectrum
+        Energy over all bands that may be chosen, in continuous time on the infinite track, whatever solves
+        the design.
+
+    Raises
+    ------
+    DesignError
+        If the ground has a mass but no damping.
+    """
+    one, wheels = _stiff_spectrum(very_stiff(design)), len(design.axle_positions)
+    return ForceSpectrum(one.frequency, wheels * one.energy, wheels * one.coherent_energy, one.step)
+
+
+@lru_cache(maxsize=64)
+def _stiff_spectrum(stiff: TrackDesign) -> ForceSpectrum:
+    model = track_model(stiff)
+    if stiff.ground is not None:
+        require_damping(model)
+    return resolved_spectrum(model, band_frequencies(WIDEST.centres[-1], WIDEST), DEFAULT_STEP)
+
+
+def gain_of(
+    model: TrackModel,
+    spectrum: ForceSpectrum,
+    reference: str | None = None,
+    summation: str = "energy",
+    bands: Bands = ONE_THIRD_OCTAVES,
+) -> InsertionGain:
+    """Return the insertion gain of a track whose spectrum is known.
+
+    Parameters
+    ----------
+    model : TrackModel
+        The track.
+    spectrum : ForceSpectrum
+        Its spectrum.
+    reference : str or None
+        As for :func:`trackig_core.insertion_gain`; None: the design's own, the line, or on ground that yields
+        the very stiff track.
+    summation : str
+        As for :func:`trackig_core.insertion_gain`.
+    bands : Bands
+        Bands, which the spectrum covers.
+
+    Returns
+    -------
+    InsertionGain
+        Levels and the energies behind them.
+
+    Raises
+    ------
+    ValueError
+        If a choice is not one of those there are, or the reference has no meaning for the design.
+    """
+    reference = own_reference(model.design) if reference is None else reference
+    stiff = stiff_spectrum(model.design) if reference == "stiff" else None
+    return insertion_gain(spectrum, model.design, loaded_track(model), reference, summation, bands, stiff)
+
+
 def banded_gain(
-    design: Track, lattice: Lattice = INFINITE, reference: str = "line", summation: str = "energy"
+    design: Track, lattice: Lattice = INFINITE, reference: str | None = None, summation: str = "energy"
 ) -> InsertionGain:
     """Return the insertion gain of a track by the frequency-domain solution.
 
@@ -226,7 +369,7 @@ def banded_gain(
     lattice : Lattice
         What to solve.
     reference, summation : str
-        As for :func:`trackig_core.insertion_gain`.
+        As for :func:`gain_of`.
 
     Returns
     -------
@@ -238,8 +381,7 @@ def banded_gain(
     DesignError
         As for :func:`banded_spectrum`.
     ValueError
-        If ``reference`` or ``summation`` is not one of the choices.
+        As for :func:`gain_of`.
     """
     model = track_model(design)
-    spectrum = banded_spectrum(model, lattice)
-    return insertion_gain(spectrum, model.design, loaded_track(model), reference, summation)
+    return gain_of(model, banded_spectrum(model, lattice), reference, summation)

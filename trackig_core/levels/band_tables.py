@@ -370,6 +370,9 @@ def _levels(table: Table, frequencies: Column, quantity: Quantity) -> Column:
     """Return the column that holds the levels, or raise the quantity's error if several may."""
     beside = [each for each in table.columns if each is not frequencies]
     others = [each for each in _uncounted(table.columns) if each is not frequencies] or beside
+    if not others:
+        message = f"no column holds {quantity.column}: add one beside the frequencies"
+        raise quantity.error(message, frequencies.head.line, frequencies.head.column)
     named = [each for each in others if each.header.casefold() == quantity.column]
     able = [each for each in others if each.unit is None or each.unit.quantity == "level"]
     in_decibels = [each for each in able if each.unit is not None]

@@ -7,18 +7,24 @@ and the energy sum; IEC 61260-1 for the bands.
 from collections.abc import Collection
 
 import numpy as np
+from scipy.integrate import simpson
 from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION, ONE_THIRD_OCTAVES, Bands, decibels
 from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import TrackDesign
+from trackig_core.track.vehicle import rigid_energy
 
-REFERENCES = ("line", "rigid")
-"""References: the paper's straight line, or the exact rigid track."""
+REFERENCES = ("line", "rigid", "stiff")
+"""References: the paper's straight line, the exact rigid track, or a very stiff track on the same ground and
+under the same vehicle."""
 
 SUMMATIONS = ("energy", "coherent")
 """Sums over the supports: of squared forces (the paper), or of forces."""
+
+PANELS = 64
+"""Panels of Simpson's rule per band over the energy of a rigid track under a suspension [-]."""
 
 
 def insertion_gain(
@@ -28,6 +34,7 @@ def insertion_gain(
     reference: str = "line",
     summation: str = "energy",
     bands: Bands = ONE_THIRD_OCTAVES,
+    stiff: ForceSpectrum | None = None,
 ) -> InsertionGain:
     """Return the insertion gain of a track per band.
 
@@ -36,17 +43,21 @@ def insertion_gain(
     spectrum : ForceSpectrum
         Energy of the force into the ground.
     design : TrackDesign
-        The track, for the mass of its wheel.
+        The track, for its wheels and what they carry.
     loaded_track : float
         Its loaded-track frequency [Hz].
     reference : str
-        ``"line"``: the straight line (9 dB per octave in bands) through the track's own spectrum at a
-        tenth of its loaded-track frequency, or at the nearest end of the spectrum. ``"rigid"``: the
-        inertia force of the wheel alone.
+        ``"line"``: the line through the track's own spectrum at a tenth of its loaded-track frequency, or at
+        the nearest end of the spectrum; straight (9 dB per octave in bands) where the wheel has no
+        suspension, else as the rigid track's rises. ``"rigid"``: what wheels and suspension pass into a
+        rigid track, times the number of wheels. ``"stiff"``: the very stiff track on the same ground and
+        under the same vehicle, the only reference where the ground yields.
     summation : str
         ``"energy"``: squared support forces are summed. ``"coherent"``: forces are summed.
     bands : Bands
         Bands, which the spectrum covers; by default one-third octaves from 5 Hz to 500 Hz.
+    stiff : ForceSpectrum, optional
+        Spectrum of the very stiff track; needed for ``"stiff"`` only.
 
     Returns
     -------
@@ -56,22 +67,27 @@ def insertion_gain(
     Raises
     ------
     ValueError
-        If ``reference`` or ``summation`` is not one of the above.
+        If ``reference`` or ``summation`` is not one of the above, or the reference has no meaning for the
+        design.
     """
-    check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
+    check_reference(design, reference)
     energy = summed_energy(spectrum, summation)
     frequency = spectrum.frequency
     density = CubicSpline(frequency, energy)
-    if reference == "line":
-        # E grows as f^2 here, which a cubic spline follows between bins
+    if reference == "stiff":
+        if stiff is None:
+            raise ValueError("reference = 'stiff': give stiff, or use solve(), which computes it")
+        in_bands = integrate_bands(stiff.frequency, summed_energy(stiff, summation), bands.edges)
+        reference_energy = in_bands * (spectrum.step / stiff.step) ** 2
+    elif reference == "line":
+        # E grows as that of a rigid track here, which a cubic spline follows between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        height = float(density(anchor)) / anchor**2
+        height = float(density(anchor)) / _rise(design, anchor)
+        reference_energy = _rise_in_bands(design, float(height), bands)
     else:
-        # E = (m_w w^2 step)^2 / w^2
-        height = (2 * np.pi * design.wheel_mass * spectrum.step) ** 2
+        reference_energy = rigid_band_energy(design, spectrum.step, bands)
     band_energy = _over_bands(density, bands.edges)
-    reference_energy = height * np.diff(bands.edges**3) / 3
     return InsertionGain(
         levels=decibels(band_energy / reference_energy),
         band_energy=band_energy,
@@ -80,6 +96,57 @@ def insertion_gain(
         summation=summation,
         bands=bands,
     )
+
+
+def check_reference(design: TrackDesign, reference: str) -> None:
+    """Raise a ValueError if there is no such reference, or if it has no meaning for a design."""
+    check_choice("reference", reference, REFERENCES)
+    if design.ground is not None and reference != "stiff":
+        raise ValueError(
+            f"reference = {reference!r}: give 'stiff', for this design stands on ground that yields, and "
+            "against a rigid track the ground's own amplification would count as the track's"
+        )
+
+
+def own_reference(design: TrackDesign) -> str:
+    """Return the reference where none is asked for (str): the line, on ground that yields the stiff track."""
+    return "line" if design.ground is None else "stiff"
+
+
+def rigid_band_energy(design: TrackDesign, step: float, bands: Bands = ONE_THIRD_OCTAVES) -> RealArray:
+    """Return the energy that a rigid track passes in each band after a step of roughness.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track, for its wheels and what they carry.
+    step : float
+        Height of the step [m].
+    bands : Bands
+        Bands.
+
+    Returns
+    -------
+    numpy.ndarray (bands,)
+        Energy [N2 s].
+    """
+    # E = (m_w w^2 step)^2 / w^2 under a wheel without suspension
+    height = 2 * np.pi * design.wheel_mass * step if design.one_unsprung_wheel else step
+    return _rise_in_bands(design, height**2, bands)
+
+
+def _rise(design: TrackDesign, frequency: RealArray) -> RealArray:
+    """Return what the energy of a rigid track is proportional to (frequencies,)."""
+    return frequency**2 if design.one_unsprung_wheel else rigid_energy(design, frequency)
+
+
+def _rise_in_bands(design: TrackDesign, height: float, bands: Bands) -> RealArray:
+    """Return ``height`` times :func:`_rise` integrated over the bands (bands,)."""
+    if design.one_unsprung_wheel:
+        cubes: RealArray = height * np.diff(bands.edges**3) / 3
+        return cubes
+    nodes = np.linspace(bands.edges[:-1], bands.edges[1:], 2 * PANELS + 1)
+    return height * np.asarray(simpson(_rise(design, nodes), nodes, axis=0))
 
 
 def summed_energy(spectrum: ForceSpectrum, summation: str) -> RealArray:

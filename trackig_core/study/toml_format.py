@@ -26,11 +26,22 @@ from trackig_core.levels.measured_gain import MeasuredGain
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
-from trackig_core.study.records import PinnedDesign, StudyError, View
-from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
-from trackig_core.track.fields import DESIGN_FIELDS, RAIL_FIELDS, STATIC_FIELDS, DesignError
+from trackig_core.study.records import PinnedDesign, StaticLoad, StudyError, View
+from trackig_core.track.design import ONE_AXLE, REFERENCE_FREQUENCY, TrackDesign
+from trackig_core.track.fields import (
+    AXLE_FIELDS,
+    DESIGN_FIELDS,
+    GROUND_FIELDS,
+    RAIL_FIELDS,
+    STATIC_FIELDS,
+    SUSPENSION_FIELDS,
+    WHEELBASE,
+    DesignError,
+)
+from trackig_core.track.ground import Ground
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
 from trackig_core.track.rails import Rail
+from trackig_core.track.vehicle import Suspension
 
 if TYPE_CHECKING:
     from trackig_core.study.studies import Study
@@ -65,8 +76,22 @@ _OPTIONAL = {"stiffness_frequency": REFERENCE_FREQUENCY}
 _RAIL_KEYS = {"name": "name"} | {each.name: each.key for each in RAIL_FIELDS}
 """Key of the name and of each number of a rail."""
 
+_AXLE_KEYS = dict(zip(("axle_positions", "speed"), (each.key for each in AXLE_FIELDS), strict=True))
+"""Key of the axles' positions and of the speed."""
+
+_PARTS: dict[str, tuple[type[Suspension] | type[Ground], dict[str, str]]] = {
+    "suspension": (Suspension, {each.name: each.key for each in SUSPENSION_FIELDS}),
+    "ground": (Ground, {each.name: each.key for each in GROUND_FIELDS}),
+}
+"""Class of what a design may stand under and on, and the key of each of its numbers."""
+
 _LIMIT_KEYS = {each.name: each.key for each in STATIC_FIELDS}
 """Key of the limit of rail deflection, and of the load under which it holds."""
+
+_LOAD_KEYS = {name: each for name, each in _LIMIT_KEYS.items() if name == "wheel_load"} | {
+    WHEELBASE.name: WHEELBASE.key
+}
+"""Key of each number of the wheels that stand on the track."""
 
 _CURVES: dict[str, tuple[str, type[StiffnessCurve] | type[LossFactorCurve]]] = {
     "pad_stiffness": ("pad_stiffness_measured", StiffnessCurve),
@@ -193,6 +218,7 @@ def read(data: str | bytes) -> dict[str, Any]:
         "preset": section.take("preset"),
         "design": _design(section.section("design")),
         "view": view,
+        "load": _load(_Section(section.take("load", {}), "load")),
         "measured": _measured(section),
         "pinned": [_pinned(_Section(each, f"pinned[{number}]")) for number, each in enumerate(pinned)],
         "answers": _answers(section),
@@ -217,6 +243,15 @@ def _view(section: _Section) -> View:
     view = View(**{each.name: section.take(each.name, each.default) for each in fields(View)})
     section.close()
     return view
+
+
+def _load(section: _Section) -> StaticLoad:
+    given = {name: section.take(key) for name, key in _LOAD_KEYS.items()}
+    section.close()
+    try:
+        return StaticLoad(**{name: value for name, value in given.items() if value is not None})
+    except StudyError as error:
+        raise StudyError(error.message, section.under(_LOAD_KEYS[error.path.rpartition(".")[2]])) from None
 
 
 def _pinned(section: _Section) -> PinnedDesign:
@@ -328,9 +363,24 @@ def _design(section: _Section) -> TrackDesign:
     rail_section = section.section("rail")
     rail_values = {name: rail_section.need(key) for name, key in _RAIL_KEYS.items()}
     rail_section.close()
+    around = {name: section.take(key) for name, key in _AXLE_KEYS.items()}
+    around |= {name: _part(section, name, *kind) for name, kind in _PARTS.items()}
     section.close()
     rail = _made(Rail, rail_values, _RAIL_KEYS, rail_section)
-    return _made(TrackDesign, {**values, "rail": rail}, _DESIGN_KEYS, section)
+    given = {name: value for name, value in around.items() if value is not None}
+    return _made(TrackDesign, {**values, **given, "rail": rail}, _DESIGN_KEYS | _AXLE_KEYS, section)
+
+
+def _part(
+    design: _Section, name: str, kind: type[Suspension] | type[Ground], keys: Mapping[str, str]
+) -> Suspension | Ground | None:
+    """Return a design's suspension or ground, or None if there is none."""
+    if design.take(name) is None:
+        return None
+    section = design.section(name)
+    values = {field: section.take(key) for field, key in keys.items()}
+    section.close()
+    return _made(lambda **numbers: kind(*numbers.values()), values, keys, section)
 
 
 def _made(
@@ -356,6 +406,8 @@ def written(study: Study) -> str:
     if study.preset is not None:
         document.add("preset", study.preset)
     document.add("view", _written_view(study.view))
+    if study.load != StaticLoad():
+        document.add("load", _written_load(study.load))
     document.add("design", _written_design(study.design))
     for name, (_, key) in _TABLES.items():
         if getattr(study, name) is not None:
@@ -383,6 +435,14 @@ def _written_view(view: View) -> Table:
     for each in fields(View):
         if getattr(view, each.name) is not None:
             table.add(each.name, getattr(view, each.name))
+    return table
+
+
+def _written_load(load: StaticLoad) -> Table:
+    table = tomlkit.table()
+    for name, key in _LOAD_KEYS.items():
+        if getattr(load, name) is not None:
+            table.add(key, _number(getattr(load, name)))
     return table
 
 
@@ -448,8 +508,28 @@ def _written_design(design: TrackDesign) -> Table:
     for name, key in _RAIL_KEYS.items():
         value = getattr(design.rail, name)
         rail.add(key, value if name == "name" else _number(value))
+    _write_axles(table, design)
     table.add("rail", rail)
+    for name, (kind, keys) in _PARTS.items():
+        part = getattr(design, name)
+        if part is not None:
+            numbers = zip(keys.values(), (getattr(part, each.name) for each in fields(kind)), strict=True)
+            section = tomlkit.table()
+            for key, value in numbers:
+                if value is not None:
+                    section.add(key, _number(value))
+            table.add(name, section)
     return table
+
+
+def _write_axles(table: Table, design: TrackDesign) -> None:
+    """Write the axles' positions and the speed, if they are not those of one wheel over a support."""
+    if design.axle_positions != ONE_AXLE:
+        positions = tomlkit.array()
+        positions.extend(_number(each) for each in design.axle_positions)
+        table.add(_AXLE_KEYS["axle_positions"], positions)
+    if design.speed is not None:
+        table.add(_AXLE_KEYS["speed"], _number(design.speed))
 
 
 def _written_table(levels: BandTable, key: str) -> Table:

@@ -23,7 +23,7 @@ from trackig_core.frequency_domain.natural_frequencies import loaded_track
 from trackig_core.frequency_domain.refinement import banded_spectrum
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.time_domain.decimation import RECORD_RATE
-from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid, stable_time_step
+from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, fewest_bays, make_grid, stable_time_step
 
 BUDGET = 0.035
 """Error of insertion gain that time step and ring may make in any band [dB]; the rest of the 0.05 dB that are
@@ -117,7 +117,7 @@ def plan(design: Track) -> Plan:
     dx = model.design.fastener_spacing / INFINITE.elements_per_bay
     stable = STABLE_SHARE * stable_time_step(model, dx)
     steps = max(FEWEST_STEPS, math.ceil(1 / (stable * RECORD_RATE)))
-    bays = min(FIRST_BAYS, odd(bays_until(model, WAVE_LEFT)))
+    bays = max(fewest_bays(model), min(FIRST_BAYS, odd(bays_until(model, WAVE_LEFT))))
     for _ in range(MOST_TRIALS):
         whole = error(bays, steps)
         if whole <= BUDGET:

@@ -2,7 +2,7 @@
 
 A ring of bays, each ``elements_per_bay`` (three) elements long, with a support (S) under the first
 element of each bay and the wheel (W) over support 0. Ring and load are symmetric about that
-support, so only half of the ring is stepped:
+support, so only half of the ring is stepped (several axles, or one between supports, need all of it):
 
     element    -2   -1  |  0    1    2  |  3    4    5  | ... |  E s  ...  | ...   half | mirrored
     bay          ghost  |     bay 0     |     bay 1     |     |   bay s    |   last bay | ghost
@@ -24,9 +24,8 @@ from dataclasses import dataclass
 
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.time_domain.decimation import RECORD_RATE
-
-ELEMENTS_PER_BAY = 3
-"""Rail elements between neighbouring supports [-]; the paper."""
+from trackig_core.track.design import ELEMENTS_PER_BAY as ELEMENTS_PER_BAY
+from trackig_core.track.design import ONE_AXLE
 
 RING_BAYS = 667
 """Supports around the ring [-]: the paper's 2000 elements, made divisible by three."""
@@ -79,6 +78,8 @@ class Grid:
         Time steps of the record; a record that is extended takes more.
     notes : tuple of str
         What was changed against the paper's grid, and why.
+    symmetric : bool
+        Whether half of the ring is stepped for all of it; several axles need the whole.
     """
 
     bays: int
@@ -87,6 +88,7 @@ class Grid:
     dt: float
     steps: int
     notes: tuple[str, ...] = ()
+    symmetric: bool = True
 
     @property
     def elements(self) -> int:
@@ -98,14 +100,19 @@ class Grid:
         """Bays that are stored: support 0 and those on one side of it."""
         return (self.bays + 1) // 2
 
+    @property
+    def stored_bays(self) -> int:
+        """Bays that are stepped: those of half the ring, or all."""
+        return self.half_bays if self.symmetric else self.bays
+
     def duration_estimate(self, record: float) -> float:
         """Return the time that a record of given length [s] would take on a modest core [s]."""
-        return record / self.dt * self.half_bays * self.elements_per_bay / STEP_RATE
+        return record / self.dt * self.stored_bays * self.elements_per_bay / STEP_RATE
 
     def memory_estimate(self, record: float) -> float:
         """Return the memory that a record of given length [s] would take [bytes]."""
         # all supports at the decimated rate, copied up to twice on the way to the spectrum
-        return 3 * 8 * self.half_bays * record * RECORD_RATE
+        return 3 * 8 * self.stored_bays * record * RECORD_RATE
 
     def can_afford(self, record: float) -> bool:
         """Return whether a record of given length [s] keeps within the limits of time and memory."""
@@ -119,7 +126,9 @@ def stable_time_step(design: Track, dx: float) -> float:
 
     Gershgorin's bound on the highest natural frequency of the undamped lattice with every spring
     at its instantaneous (stiffest) value: each row of the mass-weighted stiffness matrix is summed
-    in magnitude. Leap-frog stepping is stable for dt < 2 / omega_max.
+    in magnitude. Leap-frog stepping is stable for dt < 2 / omega_max. Ground that yields needs no row: its
+    foot is stepped by the trapezoidal rule, and the spring above it is never stiffer than on rigid ground.
+    Dashpots need none: they feel the mean of the velocities before and after.
 
     Parameters
     ----------
@@ -137,13 +146,25 @@ def stable_time_step(design: Track, dx: float) -> float:
     track, pad, boot = model.design, model.pad.instantaneous, model.boot
     element_mass = track.rail.mass_per_metre * dx
     bending = 16 * track.rail.bending_stiffness / (track.rail.mass_per_metre * dx**4)
+    primary = 0.0 if track.suspension is None else track.suspension.primary_stiffness
     rows = [
         bending + 2 * (pad + track.contact_stiffness) / element_mass,
-        2 * track.contact_stiffness / track.wheel_mass,
+        2 * (track.contact_stiffness + primary) / track.wheel_mass,
     ]
+    if track.suspension is not None:
+        secondary, _, body_mass = track.suspension.secondary
+        rows.append(2 * (primary + secondary) / track.suspension.bogie_mass)
+        rows.append(2 * secondary / (body_mass or 1.0))
     if boot is not None and track.block_mass is not None:
         rows.append((2 * pad + boot.instantaneous) / track.block_mass)
     return 2 / math.sqrt(max(rows))
+
+
+def fewest_bays(design: Track) -> int:
+    """Return the fewest supports around a ring (int, odd): twice as many as between the outermost axles."""
+    track = track_model(design).design
+    span = max(track.axle_positions) - min(track.axle_positions)
+    return FEWEST_BAYS + 4 * math.ceil(span / track.fastener_spacing)
 
 
 def make_grid(
@@ -164,7 +185,7 @@ def make_grid(
     elements_per_bay : int
         Rail elements between supports, two or more.
     bays : int
-        Supports around the ring, odd and 17 or more.
+        Supports around the ring, odd and 17 or more; more are taken where the axles stand far apart.
     record : float
         Length of the record [s].
 
@@ -190,6 +211,7 @@ def make_grid(
             f"and a record of {SHORTEST_RECORD} s or more"
         )
     model = track_model(design)
+    bays = max(bays, fewest_bays(model))
     dx = model.design.fastener_spacing / elements_per_bay
     stable = stable_time_step(model, dx)
     halvings = max(0, math.floor(math.log2(time_step / stable)) + 1)
@@ -200,7 +222,8 @@ def make_grid(
             f"time step halved {_times(halvings)} to 1/{1 / dt:.0f} s: this design is stable only below "
             f"{stable * 1e6:.3g} µs",
         )
-    grid = Grid(bays, elements_per_bay, dx, dt, round(record / dt), notes)
+    symmetric = model.design.axle_positions == ONE_AXLE
+    grid = Grid(bays, elements_per_bay, dx, dt, round(record / dt), notes, symmetric)
     _refuse_if_too_large(grid, record)
     return grid
 

@@ -19,11 +19,16 @@ from trackig_core.time_domain.decimation import LowPass
 TOP_FREQUENCY = 600.0
 """Highest frequency of a spectrum [Hz]: above the upper edge of the 500 Hz band, 562 Hz."""
 
+POINTS_PER_FRINGE = 8
+"""Frequencies per fringe that wheels put on a spectrum as they follow each other, at least [-]."""
+
 COLUMNS = 8
 """Supports that are transformed at a time [-]: few enough that memory is used again, not asked for anew."""
 
 
-def force_spectrum(history: TimeHistory, padding: float = 1) -> ForceSpectrum:
+def force_spectrum(
+    history: TimeHistory, padding: float = 1, like: TimeHistory | None = None
+) -> ForceSpectrum:
     """Return the energy spectrum of a run, corrected for the low-pass filter's own response.
 
     Parameters
@@ -32,16 +37,21 @@ def force_spectrum(history: TimeHistory, padding: float = 1) -> ForceSpectrum:
         Record of the run.
     padding : float
         Length of the transform in parts of the record [-], which zeros make longer: a force that has died
-        down stays so.
+        down stays so. It is longer yet where wheels follow each other so late that fringes need it.
+
+    like : TimeHistory, optional
+        Record of another run of the same grid, whose frequencies are taken.
 
     Returns
     -------
     ForceSpectrum
         At multiples of one over the transform's length, up to 600 Hz.
     """
-    length = transform_length(history, padding)
-    frequency = _axis(history.low_pass, length)
-    correction = _correction(history.low_pass, length)
+    low_pass, model = history.low_pass, history if like is None else like
+    record = len(model.time) * low_pass.steps_per_sample * low_pass.time_step
+    length = transform_length(model, max(padding, POINTS_PER_FRINGE * model.last_onset / record))
+    frequency = _axis(low_pass, length)
+    correction = _correction(low_pass, length)
 
     # Plain sums: a product of matrices would be shared among threads, which wait for each other when other
     # solves keep the cores busy.
@@ -49,7 +59,7 @@ def force_spectrum(history: TimeHistory, padding: float = 1) -> ForceSpectrum:
     total = np.zeros(len(frequency), dtype=complex)
     for first in range(0, history.multiplicity.size, COLUMNS):
         some = slice(first, first + COLUMNS)
-        forces = np.ascontiguousarray(history.support_force[:, some].T)
+        forces = _folded(history.support_force[:, some].T, length)
         transforms = rfft(forces, length, axis=1)[:, 1 : len(frequency) + 1]
         share = history.multiplicity[some, None]
         energy += np.sum(share * (transforms.real**2 + transforms.imag**2), axis=0)
@@ -60,6 +70,17 @@ def force_spectrum(history: TimeHistory, padding: float = 1) -> ForceSpectrum:
         coherent_energy=correction * np.abs(total) ** 2,
         step=history.step,
     )
+
+
+def _folded(forces: RealArray, length: int) -> RealArray:
+    """Return a record (columns, samples) that is no longer than a transform, which is none the wiser."""
+    columns, samples = forces.shape
+    if samples <= length:
+        return np.ascontiguousarray(forces)
+    turns = -(-samples // length)
+    whole = np.zeros((columns, turns * length))
+    whole[:, :samples] = forces
+    return whole.reshape(columns, turns, length).sum(axis=1)
 
 
 def transform_length(history: TimeHistory, padding: float) -> int:

@@ -16,16 +16,21 @@ from trackig_core.arrays import IntArray, RealArray
 from trackig_core.frequency_domain.kernel_rows import recursion_row
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.results import SolveCancelled, TimeHistory
-from trackig_core.time_domain import kernels
+from trackig_core.time_domain import kernels, vehicle_kernels, vehicle_layout
 from trackig_core.time_domain.decimation import NO_COMB, RECORD_RATE, low_pass
 from trackig_core.time_domain.grid import LONGEST_RECORD, Grid
 from trackig_core.time_domain.kernels import LANES, QUANTITIES
 from trackig_core.time_domain.memory_layout import GHOSTS, Layout, aligned_zeros
+from trackig_core.time_domain.vehicle_layout import VehicleLayout
 from trackig_core.track.design import DEFAULT_STEP
 from trackig_core.track.viscoelastic_law import Relaxation
 
 DECAY = 1e-4
 """Amplitude, relative to its peak, below which a force has died down [-]: 80 dB."""
+
+SPRUNG_DECAY = 1e-6
+"""The same under a wheel that carries a suspension [-]: 120 dB. A body that still bounces at 1 Hz passes next
+to no force, but cut off it would count in the lowest bands."""
 
 DECAY_WINDOW = 0.1
 """Last part of the record in which the force must stay below :data:`DECAY` [s]: half a period at 5 Hz."""
@@ -49,10 +54,16 @@ class Ending(Protocol):
 
 
 class Decay:
-    """When the paper's record may end: its force has decayed by 80 dB; if not, it is doubled."""
+    """When the paper's record may end: its force has decayed by 80 dB; if not, it is doubled.
 
-    def __init__(self) -> None:
-        self._peak = 0.0
+    Parameters
+    ----------
+    amplitude : float
+        Amplitude over the peak's below which a force has died down [-].
+    """
+
+    def __init__(self, amplitude: float = DECAY) -> None:
+        self._amplitude, self._peak = amplitude, 0.0
 
     def reached(self, forces: RealArray) -> bool:
         """Return whether a record may end.
@@ -64,7 +75,7 @@ class Decay:
         """
         window = max(1, round(DECAY_WINDOW * RECORD_RATE))
         self._peak = max(self._peak, _largest(forces))
-        return _largest(forces[-window:]) <= DECAY * self._peak
+        return _largest(forces[-window:]) <= self._amplitude * self._peak
 
     def more(self, steps_done: int) -> int:
         """Return how many steps a record that may not end is made longer by."""
@@ -82,6 +93,7 @@ def simulate(
     *,
     memory_order: int = 1,
     step: float = DEFAULT_STEP,
+    rough_wheel: int | None = None,
     ending: Ending | None = None,
     progress: Callable[[float], object] | None = None,
     cancelled: Callable[[], object] | None = None,
@@ -100,9 +112,12 @@ def simulate(
         1 for the paper's recursion of the damping memory, 2 for the second-order one.
     step : float
         Step that squeezes the contact spring [m].
+    rough_wheel : int, optional
+        The only wheel under which the roughness steps, of several whose roughness is independent; by default
+        the step reaches each wheel, with its delay.
     ending : Ending, optional
         Says when the record may end, and how much longer it is made if it may not. By default the paper's:
-        it is doubled until the low-passed force has decayed by 80 dB.
+        it is doubled until the low-passed force has decayed by 80 dB, under a suspension by 120 dB.
     progress : callable, optional
         Called now and then with the fraction done, 0 to 1. The first record counts for half of it, the
         first extension for half of the rest, and so on, since nobody knows how many there will be.
@@ -122,10 +137,11 @@ def simulate(
         If the run produced a value that is not finite.
     """
     model = track_model(design)
-    run = Run(model, grid, memory_order=memory_order, step=step)
-    ending = ending or Decay()
+    run = Run(model, grid, memory_order=memory_order, step=step, rough_wheel=rough_wheel)
+    ending = ending or Decay(DECAY if model.design.suspension is None else SPRUNG_DECAY)
+    supports = grid.stored_bays
     parts = [run.collect(grid.steps, progress, cancelled)]
-    while not (decayed := ending.reached(parts[-1][:, : grid.half_bays])):
+    while not (decayed := ending.reached(parts[-1][:, :supports]) and run.begun):
         more = ending.more(run.steps_done)
         record = (run.steps_done + more) * grid.dt
         if record > LONGEST_RECORD or not grid.can_afford(record):
@@ -135,21 +151,22 @@ def simulate(
     if progress is not None:
         progress(1.0)
 
-    supports = grid.half_bays
-    multiplicity = np.full(supports, 2.0)
+    multiplicity = np.full(supports, 2.0 if grid.symmetric else 1.0)
     multiplicity[0] = 1.0
+    after_wheels = supports + len(model.design.axle_positions)
     return TimeHistory(
         time=run.filter.times(len(samples)),
         support_force=samples[:, :supports],
         multiplicity=multiplicity,
         wheel_displacement=samples[:, supports],
-        rail_displacement=samples[:, supports + 1],
-        block_displacement=samples[:, supports + 2] if model.design.two_stage else None,
+        rail_displacement=samples[:, after_wheels],
+        block_displacement=samples[:, after_wheels + 1] if model.design.two_stage else None,
         low_pass=run.filter,
         time_step=grid.dt,
         step=step,
         steps=run.steps_done,
         decayed=decayed,
+        last_onset=run.last_onset,
     )
 
 
@@ -288,6 +305,8 @@ class Run:
     ----------
     design, grid, memory_order, step, probes
         As in :func:`at_rest`.
+    rough_wheel : int, optional
+        As in :func:`simulate`.
 
     Attributes
     ----------
@@ -295,6 +314,8 @@ class Run:
         The filter that precedes the thinning out.
     steps_done : int
         Time steps taken.
+    last_onset : float
+        When the step of roughness reaches the last wheel [s].
     """
 
     def __init__(
@@ -305,25 +326,54 @@ class Run:
         memory_order: int = 1,
         step: float = DEFAULT_STEP,
         probes: Probes = LOADED_SUPPORT,
+        rough_wheel: int | None = None,
     ) -> None:
         self.filter = low_pass(grid.dt)
-        self._state, self._constants = at_rest(
-            design,
-            grid,
-            memory_order=memory_order,
-            step=step,
-            probes=probes,
-            comb=self.filter.comb,
-            comb_factor=self.filter.comb_factor,
-        )
-        self._layout, self._probes = Layout(grid), probes
-        self._dt = grid.dt
+        model = track_model(design)
+        comb, comb_factor = self.filter.comb, self.filter.comb_factor
+        self._advance: Callable[..., None]
+        self._layout: Layout | VehicleLayout
+        self._state: State | vehicle_layout.State
+        self._constants: Constants | vehicle_layout.Constants
+        if model.is_simplified:
+            self._advance, self._layout = kernels.advance, Layout(grid)
+            self._state, self._constants = at_rest(
+                model,
+                grid,
+                memory_order=memory_order,
+                step=step,
+                probes=probes,
+                comb=comb,
+                comb_factor=comb_factor,
+            )
+            self.last_onset = 0.0
+        else:
+            wheels = len(model.design.axle_positions)
+            self._advance, self._layout = vehicle_kernels.advance, VehicleLayout(grid, wheels)
+            self._state, self._constants = vehicle_layout.at_rest(
+                model,
+                grid,
+                memory_order=memory_order,
+                step=step,
+                probes=probes,
+                comb=comb,
+                comb_factor=comb_factor,
+                rough_wheel=rough_wheel,
+            )
+            when = vehicle_layout.onsets(model.design, rough_wheel)
+            self.last_onset = float(when[np.isfinite(when)].max())
+        self._probes, self._dt = probes, grid.dt
         columns = self._state.window.shape[1]
         self._block = max(LEAST_BLOCK, BLOCK_BYTES // (8 * columns * self.filter.factor))
         self._rows = aligned_zeros(self.filter.taps.size - 1 + self._block * self.filter.factor, columns)
         self._kept = aligned_zeros(self._block, columns)
         self.steps_done = 0
         self._fraction = 0.0
+
+    @property
+    def begun(self) -> bool:
+        """Whether the step of roughness has reached every wheel that it reaches."""
+        return self.steps_done * self._dt > self.last_onset
 
     def collect(
         self,
@@ -342,8 +392,8 @@ class Run:
 
         Returns
         -------
-        numpy.ndarray (samples, half_bays + probes)
-            Forces [N]; displacements of the wheel and of the probes on rail and blocks [m].
+        numpy.ndarray (samples, stored_bays + wheels + probes)
+            Forces [N]; displacements of the wheels and of the probes on rail and blocks [m].
 
         Raises
         ------
@@ -371,7 +421,7 @@ class Run:
         count, tail = len(samples), self.filter.taps.size - 1
         rows = self._rows[: tail + count * self.filter.factor]
         arguments = (*self._state, *self._constants, rows[tail:])
-        kernels.advance(*arguments)
+        self._advance(*arguments)
         self.steps_done += count * self.filter.steps_per_sample
         kernels.decimate(rows, self.filter.taps, self.filter.factor, self._kept[:count])
         self._rows[:tail] = rows[-tail:]

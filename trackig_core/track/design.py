@@ -11,22 +11,82 @@ equal designs are equal keys.
 
 import dataclasses
 import difflib
+import numbers
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from trackig_core.track.fields import RANGES as RANGES
 from trackig_core.track.fields import DesignError as DesignError
 from trackig_core.track.fields import check_number
+from trackig_core.track.ground import Ground as Ground
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 from trackig_core.track.rails import PAPER_RAIL, RAILS
 from trackig_core.track.rails import Rail as Rail
+from trackig_core.track.vehicle import Suspension as Suspension
 
 REFERENCE_FREQUENCY = 50.0
 """Frequency at which a pad's or boot's dynamic stiffness is stated unless the design says otherwise [Hz]; the
 paper, section on damping."""
 
+ONE_AXLE = (0.0,)
+"""Positions of the axles [m] of which there is but one, over support 0."""
+
+MOST_AXLES = 8
+"""Axles that a design may have [-]: two cars' bogies that face each other."""
+
+LONGEST_DELAY = 4.0
+"""Longest time after which the last axle may follow the first over the same roughness [s]: a record must last
+longer, and a spectrum show fringes as narrow as its inverse."""
+
+ELEMENTS_PER_BAY = 3
+"""Rail elements between supports [-]; the paper. Axles stand on elements."""
+
 DEFAULT_STEP = 1e-4
 """Step of roughness that squeezes the contact spring [m]; insertion gain does not depend on it."""
+
+
+def check_axles(positions: object, spacing: float) -> tuple[float, ...]:
+    """Return the positions of axles as floats if each has a rail element of its own.
+
+    Parameters
+    ----------
+    positions : object
+        Anything a caller may have given for positions [m].
+    spacing : float
+        Distance between supports [m].
+
+    Returns
+    -------
+    tuple of float
+        Positions [m].
+
+    Raises
+    ------
+    DesignError
+        If they are no numbers, too many, out of range, or closer than rail elements.
+    """
+    if positions is ONE_AXLE:
+        return ONE_AXLE
+    allowed = f"1 to {MOST_AXLES} positions in m, such as (0.0, 2.4)"
+    if isinstance(positions, str | numbers.Number) or not isinstance(positions, Iterable):
+        raise DesignError("axle_positions", positions, allowed)
+    numbered = tuple(positions)
+    if not 1 <= len(numbered) <= MOST_AXLES:
+        raise DesignError("axle_positions", numbered, allowed)
+    try:
+        checked = tuple(check_number("axle_position", each) for each in numbered)
+    except DesignError as error:
+        raise DesignError("axle_positions", numbered, f"positions, each {error.allowed}") from None
+    if len(set(axle_elements(checked, spacing))) < len(checked):
+        apart = f"positions of which no two fall on the same rail element, {spacing / ELEMENTS_PER_BAY:.3g} m"
+        raise DesignError("axle_positions", checked, apart)
+    return checked
+
+
+def axle_elements(positions: Iterable[float], spacing: float) -> tuple[int, ...]:
+    """Return the rail elements nearest to positions [m], three to a bay, 0 over support 0."""
+    return tuple(round(each * ELEMENTS_PER_BAY / spacing) for each in positions)
 
 
 def measured_curves(design: "TrackDesign") -> dict[str, StiffnessCurve | LossFactorCurve]:
@@ -37,7 +97,7 @@ def measured_curves(design: "TrackDesign") -> dict[str, StiffnessCurve | LossFac
 
 @dataclass(frozen=True, kw_only=True)
 class TrackDesign:
-    """One wheel on one rail on a row of equal supports on rigid ground.
+    """Wheels on one rail on a row of equal supports: by default one wheel, and rigid ground.
 
     A two-stage track has pads, blocks (or sleeper ends) and boots; a single-stage track has pads
     only, and None for ``block_mass``, ``boot_stiffness`` and ``boot_loss_factor``.
@@ -69,6 +129,15 @@ class TrackDesign:
     stiffness_frequency : float
         Frequency at which the dynamic stiffnesses hold that are numbers [Hz]: 50 Hz in the paper, 10 Hz or
         20 Hz in many test reports (DIN 45673-5).
+    suspension : Suspension or None
+        What every wheel carries; None: nothing but its unsprung mass.
+    axle_positions : iterable of float
+        Where the wheels stand, from support 0 on [m]; solvers round them to rail elements.
+    speed : float or None
+        Speed at which the wheels follow each other over the same roughness, each with the delay of its
+        position [m/s]; None: their roughness is independent. It does not matter for one wheel.
+    ground : Ground or None
+        What the supports stand on; None: rigid ground.
 
     Raises
     ------
@@ -88,6 +157,10 @@ class TrackDesign:
     pad_static_stiffness: float | None = None
     boot_static_stiffness: float | None = None
     stiffness_frequency: float = REFERENCE_FREQUENCY
+    suspension: Suspension | None = None
+    axle_positions: tuple[float, ...] = ONE_AXLE
+    speed: float | None = None
+    ground: Ground | None = None
 
     def __post_init__(self) -> None:
         """Check every value once."""
@@ -107,6 +180,7 @@ class TrackDesign:
         for field in ("pad_static_stiffness", "boot_static_stiffness"):
             if getattr(self, field) is not None:
                 self._check(field)
+        self._check_surroundings()
 
     def _check(self, field: str) -> None:
         object.__setattr__(self, field, check_number(field, getattr(self, field)))
@@ -135,6 +209,35 @@ class TrackDesign:
             others = " and ".join(field for field, is_given in given.items() if is_given)
             together = "block mass, boot stiffness and boot loss factor come together"
             raise DesignError(missing, None, f"a value too, or leave out {others}: {together}")
+
+    def _check_surroundings(self) -> None:
+        """Check vehicle, axles and ground."""
+        for field, kind in (("suspension", Suspension), ("ground", Ground)):
+            value = getattr(self, field)
+            if value is not None and not isinstance(value, kind):
+                raise DesignError(field, value, f"None or a {kind.__name__}")
+        object.__setattr__(self, "axle_positions", check_axles(self.axle_positions, self.fastener_spacing))
+        if self.speed is not None:
+            self._check("speed")
+            span = max(self.axle_positions) - min(self.axle_positions)
+            if span > LONGEST_DELAY * self.speed:
+                allowed = (
+                    f"{span / LONGEST_DELAY:.3g} m/s or more, or None: axles that pass a place more than "
+                    f"{LONGEST_DELAY:g} s apart are as good as independent"
+                )
+                raise DesignError("speed", self.speed, allowed)
+
+    @property
+    def simplified(self) -> "TrackDesign":
+        """The paper's simplified model of it: one wheel over a support, unsprung mass only, rigid ground."""
+        if self.one_unsprung_wheel and self.ground is None:
+            return self
+        return dataclasses.replace(self, suspension=None, axle_positions=ONE_AXLE, speed=None, ground=None)
+
+    @property
+    def one_unsprung_wheel(self) -> bool:
+        """Whether one wheel without suspension stands over a support."""
+        return self.suspension is None and self.axle_positions == ONE_AXLE
 
     @property
     def two_stage(self) -> bool:

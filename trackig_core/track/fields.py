@@ -48,7 +48,7 @@ DESIGN_FIELDS = (
     Field("boot_loss_factor", "", 0.0, 2.0, "boot_loss_factor"),
     Field("fastener_spacing", "m", 0.1, 2.0, "fastener_spacing_m"),
     Field("wheel_mass", "kg", 10.0, 1e4, "wheel_mass_kg"),
-    Field("contact_stiffness", "N/m", 1e6, 1e14, "contact_stiffness_N_per_m"),
+    Field("contact_stiffness", "N/m", 1e6, 1e15, "contact_stiffness_N_per_m"),
     Field("pad_static_stiffness", "N/m", 1e5, 1e13, "pad_static_stiffness_N_per_m"),
     Field("boot_static_stiffness", "N/m", 1e5, 1e13, "boot_static_stiffness_N_per_m"),
     Field("stiffness_frequency", "Hz", 1.0, 1000.0, "stiffness_frequency_Hz"),
@@ -61,11 +61,54 @@ STATIC_FIELDS = (
 )
 """Numbers of a standing wheel, and of what it may sink."""
 
+WHEELBASE = Field("wheelbase", "m", 0.5, 100.0, "wheelbase_m")
+"""Distance of a second standing wheel."""
+
 DEFAULT_WHEEL_LOAD = 85e3
 """Static load of a wheel where none is given [N]: half an axle load of 17 t."""
 
+SUSPENSION_FIELDS = (
+    Field("primary_stiffness", "N/m", 1e3, 1e9, "primary_stiffness_N_per_m"),
+    Field("primary_damping", "N s/m", 0.0, 1e7, "primary_damping_N_s_per_m"),
+    Field("bogie_mass", "kg", 1.0, 1e5, "bogie_mass_kg"),
+    Field("secondary_stiffness", "N/m", 1e3, 1e9, "secondary_stiffness_N_per_m"),
+    Field("secondary_damping", "N s/m", 0.0, 1e7, "secondary_damping_N_s_per_m"),
+    Field("body_mass", "kg", 1.0, 1e5, "body_mass_kg"),
+)
+"""Numbers of a suspension."""
+
+GROUND_FIELDS = (
+    Field("ground_stiffness", "N/m", 1e5, 1e13, "stiffness_N_per_m"),
+    Field("ground_damping", "N s/m", 0.0, 1e9, "damping_N_s_per_m"),
+    Field("ground_mass", "kg", 0.0, 1e5, "mass_kg"),
+)
+"""Numbers of the ground under a support."""
+
+AXLE_FIELDS = (
+    Field("axle_position", "m", -30.0, 30.0, "axle_positions_m"),
+    Field("speed", "m/s", 1.0, 150.0, "speed_m_per_s"),
+)
+"""Numbers of the axles: position of each, in a list, and speed."""
+
+_HALF_SPACE_FIELDS = (
+    Field("radius", "m", 0.01, 10.0, "radius_m"),
+    Field("shear_modulus", "Pa", 1e5, 1e12, "shear_modulus_Pa"),
+    Field("poissons_ratio", "", 0.0, 0.5, "poissons_ratio"),
+    Field("density", "kg/m3", 100.0, 1e4, "density_kg_per_m3"),
+)
+
 RANGES = {
-    each.name: (each.low, each.high, each.unit) for each in (*RAIL_FIELDS, *DESIGN_FIELDS, *STATIC_FIELDS)
+    each.name: (each.low, each.high, each.unit)
+    for each in (
+        *RAIL_FIELDS,
+        *DESIGN_FIELDS,
+        *STATIC_FIELDS,
+        *SUSPENSION_FIELDS,
+        *GROUND_FIELDS,
+        *AXLE_FIELDS,
+        *_HALF_SPACE_FIELDS,
+        WHEELBASE,
+    )
 }
 """Lowest and highest value, and unit, of each number by name."""
 

@@ -3,8 +3,11 @@
 // What is kept is never overwritten before it was offered to a server that does not know it.
 
 const MEMORY = "trackig"
+const CATALOGUE = "trackig-catalogue"
+const LONGEST_CATALOGUE = 262144 // characters that are sent back
 const LOOK_EVERY = 500 // ms between looks whether the server is back
 const RECOLOURED = 100 // ms after which recolouring has begun
+const REVEALED = 8000 // ms after which a part that is not there is given up
 const GAP = 40 // ms between looks whether the page is at work
 const PATIENCE = 1500 // ms after which the page is shown as it is; browsers give up after 4000
 
@@ -40,6 +43,25 @@ function resume(model) {
   }
 }
 
+// The catalogue of a company stays with the browser, whatever page it opens next.
+function remember(text) {
+  try {
+    if (text === "") localStorage.removeItem(CATALOGUE)
+    else localStorage.setItem(CATALOGUE, text)
+  } catch {
+    // a browser that refuses to remember has the file
+  }
+}
+
+function recall(model) {
+  try {
+    const data = localStorage.getItem(CATALOGUE)
+    if (data !== null && data.length <= LONGEST_CATALOGUE) model.send_msg({kind: "recalled", data})
+  } catch {
+    // nothing is remembered
+  }
+}
+
 async function copyLink(model) {
   let copied = true
   try {
@@ -54,6 +76,15 @@ async function copyLink(model) {
     box.remove()
   }
   model.send_msg({kind: "copied", data: copied})
+}
+
+// Bring a part of the page into sight that may be made only now.
+async function reveal(document, name) {
+  for (const patience = performance.now() + REVEALED; performance.now() < patience; await pause(RECOLOURED)) {
+    const model = document.get_model_by_name(name)
+    const part = model === null ? null : Bokeh.index.find_one(model)?.el
+    if (part?.checkVisibility()) return part.scrollIntoView({block: "start"})
+  }
 }
 
 function save(name, blob) {
@@ -126,6 +157,8 @@ export function render({model, view}) {
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
     if (message.kind === "introduce") answer()
+    if (message.kind === "reveal") reveal(view.model.document, message.name)
+    if (message.kind === "remember") remember(message.data)
     if (message.kind === "save") save(message.name, new Blob([message.data], {type: message.type}))
   })
   view.model.document.on_event("connection_lost", comeBack)
@@ -135,5 +168,6 @@ export function render({model, view}) {
     choose: (...rest) => choose(model, ...rest),
   }
   resume(model)
+  recall(model)
   return document.createElement("span")
 }

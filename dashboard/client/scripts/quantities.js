@@ -138,6 +138,7 @@ class Quantity {
     this.box = element("input", {
       type: "text", inputMode: "decimal", maxLength: 40, autocomplete: "off", spellcheck: false,
       "aria-label": `${field.labelled}: type a number`, "aria-describedby": `advice-${field.name}`,
+      placeholder: field.blank ?? "",
     })
     this.fill = element("div", {className: "fill"})
     this.mark = element("div", {className: "mark", hidden: true})
@@ -150,7 +151,8 @@ class Quantity {
     )
     this.chip = element("button", {type: "button", className: "chip", hidden: true})
     this.chip.addEventListener("click", () => model.send_msg({kind: "chip", name: field.name}))
-    this.unit = element("span", {className: "unit", "aria-hidden": "true"}, field.unit)
+    const unitClass = field.unit.includes(" ") ? "unit wide" : "unit"
+    this.unit = element("span", {className: unitClass, "aria-hidden": "true"}, field.unit)
     this.frame = element("div", {className: "box"}, this.box, this.unit)
     this.advice = element("p", {className: "advice", id: `advice-${field.name}`, "aria-live": "polite"})
     this.root = element(
@@ -191,14 +193,14 @@ class Quantity {
     this.box.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.commit()
       else if (event.key === "Escape") {
-        this.box.value = numberText(this.value)
+        this.box.value = this.text()
         this.commit()
       } else if (UPRIGHT_KEYS.includes(event.key)) this.press(event, KEYS, {})
     })
   }
 
   press(event, steps, ends) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return
+    if (event.ctrlKey || event.metaKey || event.altKey || this.value === null) return
     if (event.key in ends || event.key in steps) this.flow.press()
     const many = event.shiftKey && event.key.startsWith("Arrow") ? 10 : 1
     if (event.key in ends) this.set(ends[event.key])
@@ -239,15 +241,22 @@ class Quantity {
     this.flow.send()
   }
 
-  take(value, text = numberText(value)) {
+  // What may be left empty has no value then, and no slider.
+  text() {
+    return this.value === null ? "" : numberText(this.value)
+  }
+
+  take(value, text = undefined) {
     this.value = value
-    this.box.value = this.committed = text
-    this.slider.setAttribute("aria-valuetext", numberText(value))
-    this.fill.style.width = `${100 * this.scale.share(value)}%`
+    this.box.value = this.committed = text ?? this.text()
+    this.slider.setAttribute("aria-valuetext", this.text())
+    if (value !== null) this.fill.style.width = `${100 * this.scale.share(value)}%`
     this.refuse("")
   }
 
   place(value) {
+    this.root.classList.toggle("blank", value === null)
+    if (value === null) return
     const scale = this.own.reaching(value)
     if (scale !== this.scale) {
       this.scale = scale
@@ -265,13 +274,14 @@ class Quantity {
   }
 
   // Show what the server knows; what somebody is typing, and a thumb that stands where it gives this value, stay.
-  show({values, refused, disabled, marks}) {
+  show({values, refused, disabled, hidden, marks}) {
     const value = values[this.field.name]
     const advice = refused[this.field.name] ?? ""
     const typing = this.box.matches(":focus") && this.box.value !== this.committed
     if (value !== undefined && value !== this.value) this.place(value)
     if (value !== undefined && advice === "" && !typing) this.take(value)
     this.refuse(advice)
+    this.root.hidden = hidden.includes(this.field.name)
     this.root.classList.toggle("disabled", disabled.includes(this.field.name))
     this.slider.disabled = this.box.disabled = disabled.includes(this.field.name)
     this.preset = marks[this.field.name]
@@ -293,7 +303,7 @@ class Quantity {
   draw() {
     this.mark.hidden = this.preset === undefined
     if (this.preset !== undefined) this.mark.style.left = `${100 * this.scale.share(this.preset)}%`
-    this.fill.style.width = `${100 * this.scale.share(this.value)}%`
+    if (this.value !== null) this.fill.style.width = `${100 * this.scale.share(this.value)}%`
     this.stretch.hidden = this.edges.hidden = this.stretches === undefined
     this.stretch.replaceChildren(...(this.stretches ?? []).map(([low, high]) => this.stretchOf(low, high)))
     this.drawEdges()
@@ -346,8 +356,12 @@ class Choice {
     this.root = element("div", {className: "choice"}, label, this.select)
   }
 
-  show({values}) {
+  show({values, words}) {
     this.select.value = values[this.field.name]
+    this.field.options.forEach(([usual, value], number) => {
+      const option = this.select.options[number]
+      option.textContent = option.selected ? words[this.field.name] ?? usual : usual
+    })
   }
 }
 
@@ -389,19 +403,53 @@ class Departure {
 
 const KINDS = {number: Quantity, choice: Choice, switch: Switch, departure: Departure}
 
-function groupOf({title, closed}, rows) {
+// What may be chosen for a group from the catalogue; it holds no choice, since sliders go on from there.
+class Pick {
+  constructor({title, kinds}, flow, model) {
+    this.kinds = kinds
+    this.root = element("select", {className: "pick", "aria-label": `${title}: from the catalogue`, hidden: true})
+    this.root.addEventListener("change", () => {
+      const {of, name} = this.root.selectedOptions[0].dataset
+      this.root.selectedIndex = 0
+      flow.waiting.clear()
+      model.send_msg({kind: "pick", of, name})
+    })
+  }
+
+  show(catalogue) {
+    const options = this.kinds.map((of) => {
+      const names = (catalogue[of] ?? []).map((name) => {
+        const option = element("option", {}, name)
+        Object.assign(option.dataset, {of, name})
+        return option
+      })
+      return element("optgroup", {label: of}, ...names)
+    })
+    const head = element("option", {disabled: true, selected: true}, "catalogue …")
+    this.root.replaceChildren(head, ...options.filter((each) => each.children.length > 0))
+    this.root.hidden = this.root.children.length === 1
+    this.root.selectedIndex = 0
+  }
+}
+
+function groupOf({title, closed}, rows, pick) {
   if (title === "") return element("div", {className: "group"}, ...rows)
-  return element("details", {className: "group", open: !closed}, element("summary", {}, title), ...rows)
+  const summary = element("summary", {}, title, ...(pick === undefined ? [] : [pick.root]))
+  return element("details", {className: "group", open: !closed}, summary, ...rows)
 }
 
 export function render({model}) {
   const flow = new Flow(model)
   const rows = new Map()
+  const picks = []
   const groups = model.groups.map((group) => {
     const made = group.fields.map((field) => new KINDS[field.kind](field, flow, model))
     made.forEach((row) => rows.set(row.field?.name ?? "", row))
-    return groupOf(group, made.map((row) => row.root))
+    const pick = group.kinds.length > 0 ? new Pick(group, flow, model) : undefined
+    if (pick !== undefined) picks.push(pick)
+    return groupOf(group, made.map((row) => row.root), pick)
   })
+  const panel = element("div", {className: "panel"}, ...groups)
 
   function show() {
     const state = model.state
@@ -409,16 +457,22 @@ export function render({model}) {
   }
   const quantities = () => [...rows.values()].filter((row) => row instanceof Quantity)
   const showStretches = () => quantities().forEach((row) => row.showStretches(model.feasible[row.field.name]))
+  const showStale = () => panel.classList.toggle("stale", Boolean(model.stale))
   const showChips = () => quantities().forEach((row) => row.showChip(model.chips[row.field.name]))
+  const showPicks = () => picks.forEach((pick) => pick.show(model.catalogue))
 
   model.on("state", show)
   model.on("feasible", showStretches)
+  model.on("stale", showStale)
   model.on("chips", showChips)
+  model.on("catalogue", showPicks)
   model.on("msg:custom", (message) => {
     if (message.kind === "answered") flow.answer(message.number)
   })
   show()
   showStretches()
+  showStale()
   showChips()
-  return element("div", {className: "panel"}, ...groups)
+  showPicks()
+  return panel
 }

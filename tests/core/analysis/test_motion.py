@@ -108,3 +108,26 @@ def test_too_many_bays_are_refused(bays):
 def test_a_film_can_be_cancelled():
     with pytest.raises(tig.SolveCancelled):
         tig.film(BLOCK, cancelled=lambda: True)
+
+
+def test_a_film_of_several_axles_shows_both_sides_and_the_later_axle_later():
+    design = BLOCK.replace(axle_positions=(0.0, 2.4), speed=24.0)
+    made = tig.film(design, bays=4)
+    assert made.wheel_position == pytest.approx([0.0, 2.4])
+    assert made.support_position == pytest.approx(0.6 * np.arange(-4, 9))
+    assert made.rail.shape == (made.time.size, 37)
+    assert made.wheels.shape == (made.time.size, 2)
+    pressed = np.abs(made.wheels) > 0.5 * made.step
+    first, second = made.time[np.argmax(pressed, axis=0)]
+    assert second - first == pytest.approx(0.1, abs=0.002)
+    assert np.array_equal(made.wheel, made.wheels[:, 0])
+
+
+def test_a_film_under_a_suspension_on_ground_is_the_run_s_own_record():
+    design = BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["soft clay"])
+    made = tig.film(design, bays=4)
+    grid = motion.film_grid(design, 4)
+    history = simulate(design, grid, memory_order=adaptive_grid.MEMORY_ORDER)
+    frames = slice(0, motion.STRIDE * len(made.time), motion.STRIDE)
+    np.testing.assert_allclose(made.rail[:, 0], history.rail_displacement[frames], rtol=1e-9)
+    np.testing.assert_allclose(made.block[:, 0], history.block_displacement[frames], rtol=1e-9)

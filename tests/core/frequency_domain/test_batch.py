@@ -59,14 +59,7 @@ def one_by_one():
 
 
 def levels_of(solutions, reference, summation):
-    return np.array(
-        [
-            tig.insertion_gain(
-                each.spectrum, each.design, each.natural_frequencies.loaded_track, reference, summation
-            ).levels
-            for each in solutions
-        ]
-    )
+    return np.array([each.gain_for(reference, summation).levels for each in solutions])
 
 
 def test_a_batch_is_within_a_hundredth_of_a_decibel_of_exact_solves(one_by_one):
@@ -288,3 +281,50 @@ def test_a_data_frame_has_a_row_per_design():
     assert frame["rail"].tolist() == ["60", "60"]
     assert frame["coupled_block"].isna().tolist() == [False, True]
     assert frame["31.5"][1] == pytest.approx(tig.solve(SLAB, "exact").insertion_gain[8], abs=0.01)
+
+
+SURROUNDED = [
+    BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension),
+    BLOCK,
+    BLOCK.replace(axle_positions=(0.0, 2.4), speed=30.0),
+    SLAB.replace(axle_positions=(0.0, 2.1), suspension=tig.VEHICLES["freight"].suspension),
+    SLAB,
+]
+
+
+def test_vehicles_and_axles_are_solved_as_one_exact_solve_after_the_other():
+    many = solve_many(SURROUNDED)
+    solutions = [tig.solve(design, "exact") for design in SURROUNDED]
+    for reference in REFERENCES:
+        for summation in SUMMATIONS:
+            expected = levels_of(solutions, reference, summation)
+            assert np.abs(many.gain_for(reference, summation) - expected).max() < 0.01
+    found = [each.natural_frequencies.loaded_track for each in solutions]
+    assert many.loaded_track == pytest.approx(np.array(found), rel=1e-9)
+    assert "suspension" in many.to_dataframe()
+    assert "suspension" not in solve_many(BLOCK).to_dataframe()
+
+
+def test_grounds_broadcast_and_have_the_stiff_reference():
+    boots = np.array([[20e6], [30e6]])
+    many = solve_many(
+        BLOCK, ground=[tig.GROUNDS["rock"], None, tig.GROUNDS["soft clay"]], boot_stiffness=boots
+    )
+    assert many.reference == "stiff"
+    assert many.insertion_gain.shape == (2, 3, 21)
+    for row in ((0, 0), (1, 1), (1, 2)):
+        expected = tig.solve(many.design(row), "exact", reference="stiff").insertion_gain
+        assert np.abs(many.insertion_gain[row] - expected).max() < 0.01
+    with pytest.raises(ValueError, match="give 'stiff', for row 0 stands on ground"):
+        many.gain_for("rigid")
+    with pytest.raises(ValueError, match="give 'stiff'"):
+        solve_many(BLOCK, ground=[tig.GROUNDS["rock"]], reference="line")
+
+
+def test_errors_of_vehicles_name_the_row():
+    with pytest.raises(tig.DesignError, match=r"row 1: speed = 2.0: give 5 m/s or more"):
+        solve_many(BLOCK, axle_positions=[(0.0,), (0.0, 20.0)], speed=[30.0, 2.0])
+    with pytest.raises(tig.DesignError, match="row 2: ground_damping"):
+        solve_many([BLOCK, BLOCK, BLOCK.replace(ground=tig.Ground(3e8, 0.0, 100.0))])
+    with pytest.raises(tig.DesignError, match="row 1: boot_loss_factor"):
+        solve_many([SURROUNDED[0], BLOCK.replace(boot_loss_factor=0.0)])

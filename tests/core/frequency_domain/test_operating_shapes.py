@@ -5,10 +5,11 @@ import pytest
 
 import trackig_core as tig
 from tests.core.frequency_domain.test_floquet_waves import BLOCK, FREQUENCIES, SLAB, dense_response
-from trackig_core.frequency_domain.floquet_waves import contact_force, receptance
+from trackig_core.frequency_domain.floquet_waves import contact_force, exact_spectrum, receptance
 from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
 from trackig_core.frequency_domain.operating_shapes import rail_receptance, steady_shape
+from trackig_core.track.vehicle import dynamic_stiffness_above
 
 WIDE = BLOCK.replace(fastener_spacing=1.0)  # elements so long that the rail's own lattice waves matter
 
@@ -91,3 +92,30 @@ def test_at_the_loaded_track_resonance_the_wheel_dominates(preset):
 def test_no_bays_no_shape(bays):
     with pytest.raises(ValueError, match="bays"):
         steady_shape(BLOCK, 40.0, bays=bays)
+
+
+def test_wheels_between_supports_move_with_rail_and_contact_springs():
+    """The contact springs take up what wheels and rail leave of the roughness, each with its delay."""
+    design = BLOCK.replace(
+        axle_positions=(-0.2, 2.2), speed=20.0, suspension=tig.VEHICLES["metro"].suspension
+    )
+    frequency = np.array([10.0, 39.0, 300.0])
+    shape = steady_shape(design, frequency, bays=2)
+    assert shape.wheel_position == pytest.approx([-0.2, 2.2])
+    assert shape.support_position == pytest.approx(0.6 * np.arange(-3, 7))
+    under = [int(np.argmin(np.abs(shape.position - place))) for place in shape.wheel_position]
+    roughness = np.exp(-2j * np.pi * frequency * np.array([[0.0], [2.4 / 20.0]]))
+    squeezed = roughness + shape.wheels - shape.rail[under]
+    angular = 2 * np.pi * frequency
+    above = dynamic_stiffness_above(design, angular**2, 1j * angular)
+    assert design.contact_stiffness * squeezed == pytest.approx(-above * shape.wheels, rel=1e-6)
+    assert shape.foot is None
+
+
+def test_feet_pass_the_force_that_the_spectrum_counts():
+    design = BLOCK.replace(ground=tig.Ground(300e6, 200e3, 150.0))
+    frequency = np.array([20.0, 80.0, 240.0])
+    shape = steady_shape(design, frequency, bays=60)
+    into = (300e6 + 2j * np.pi * frequency * 200e3) * shape.foot
+    energy = np.sum(np.abs(into) ** 2, axis=0) / (2 * np.pi * frequency) ** 2
+    assert energy == pytest.approx(exact_spectrum(design, frequency, 1.0).energy, rel=1e-3)

@@ -350,3 +350,55 @@ def test_a_study_that_exists_is_valid(wrong, path):
 def test_a_pinned_design_is_a_design():
     with pytest.raises(tig.StudyError, match="design: 'slab-track': give a TrackDesign"):
         tig.PinnedDesign("Slab", "slab-track")
+
+
+@pytest.mark.parametrize("load", [tig.study.StaticLoad(112.5e3), tig.study.StaticLoad(85e3, 2.6)])
+def test_the_standing_wheels_are_kept(load):
+    study = tig.Study(tig.PRESETS["slab-track"], load=load)
+    assert tig.Study.from_toml(study.to_toml()) == study
+    assert "[load]" not in tig.Study(tig.PRESETS["slab-track"]).to_toml()
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("wheel_load_N", 10.0), ("wheelbase_m", 0.1), ("wheelbase_m", "true")]
+)
+def test_a_standing_wheel_that_cannot_be_is_named_by_its_key(key, value):
+    text = tig.Study(tig.PRESETS["slab-track"]).to_toml() + f"\n[load]\n{key} = {value}\n"
+    with pytest.raises(tig.StudyError, match=rf"load\.{key}: .*give a number from"):
+        tig.Study.from_toml(text)
+
+
+def test_vehicle_axles_and_ground_are_kept():
+    surrounded = BLOCK.replace(
+        suspension=tig.VEHICLES["metro"].suspension,
+        axle_positions=(0.0, 2.4),
+        speed=22.2,
+        ground=tig.GROUNDS["stiff clay"],
+    )
+    laden = surrounded.replace(suspension=tig.VEHICLES["freight"].suspension, speed=None, ground=None)
+    study = tig.Study(surrounded, [tig.PinnedDesign("Laden", laden)], view=tig.View(reference="stiff"))
+    text = study.to_toml()
+    assert tig.Study.from_toml(text) == study
+    assert "speed_m_per_s = 22.2" in text
+    for key in ("axle_positions", "suspension", "ground", "speed"):
+        assert key not in tig.Study(BLOCK).to_toml()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("body_mass_kg = 3500.0", "", "design.suspension.body_mass_kg: it is missing"),
+        ("bogie_mass_kg = ", "bogie_mas_kg = ", "write 'bogie_mass_kg'"),
+        ("mass_kg = 0.0", "mass_kg = -1.0", "design.ground.mass_kg: -1.0: give a number from 0"),
+        ("[0.0, 2.4]", "[0.0, 99.0]", "design.axle_positions_m: (0.0, 99.0): give positions, each a number"),
+        ("speed_m_per_s = 22.2", "speed_m_per_s = 0.2", "design.speed_m_per_s: 0.2: give a number from 1"),
+    ],
+)
+def test_mistakes_in_vehicle_axles_and_ground_are_named_by_their_place(old, new, words):
+    vehicle, ground = tig.VEHICLES["metro"].suspension, tig.GROUNDS["stiff clay"]
+    design = BLOCK.replace(suspension=vehicle, axle_positions=(0.0, 2.4), speed=22.2, ground=ground)
+    text = tig.Study(design).to_toml()
+    assert old in text
+    with pytest.raises(tig.StudyError) as caught:
+        tig.Study.from_toml(text.replace(old, new))
+    assert words in str(caught.value)

@@ -1,6 +1,7 @@
 """What passes between session and browser: the link follows, files are bounded, messages are hostile."""
 
 import asyncio
+from pathlib import Path
 
 import panel as pn
 import pytest
@@ -9,6 +10,8 @@ from panel_material_ui.notifications import NotificationArea
 import trackig_core as tig
 from dashboard.client import exchange as exchange_module
 from dashboard.client.exchange import Exchange, opening
+from dashboard.session.inputs import values_of
+from dashboard.session.shelf import Shelf
 
 LIMITS = tig.Specification([(63, -3.0)])
 
@@ -117,3 +120,43 @@ def test_a_success_takes_away_what_was_said_before_and_no_notification_covers_th
     assert [each.message for each in area.notifications] == ["It is open."]
     assert area.position == "top-center"
     assert area.notifications[0].duration < 5000
+
+
+COMPANY = (Path(__file__).parents[2] / "data" / "company_catalogue.toml").read_bytes()
+
+
+def test_a_catalogue_is_remembered_by_the_browser_and_recalled(session, monkeypatch):
+    shelf, sent = Shelf(), []
+    exchange = Exchange(session.snapshot, shelf)
+    monkeypatch.setattr(exchange, "_send_msg", sent.append)
+    shelf.open(COMPANY)
+    (kept,) = sent
+    assert kept["kind"] == "remember"
+    shelf.close()
+    assert sent[-1] == {"kind": "remember", "data": ""}
+    exchange.handle_message({"kind": "recalled", "data": kept["data"]})
+    assert shelf.catalogue.name == "Ours"
+
+
+@pytest.mark.parametrize("data", ["", "<script>", "x" * 300_000, "format = 'trackig catalogue'"])
+def test_a_remembered_catalogue_that_is_none_is_forgotten(exchange, sent, told, data):
+    exchange.handle_message({"kind": "recalled", "data": data})
+    assert told == [("warning", exchange_module.NOT_RECALLED)]
+    assert sent == [{"kind": "remember", "data": ""}]
+
+
+def test_a_copied_link_says_what_needs_the_study_file(session, exchange, told):
+    exchange.handle_message({"kind": "copied", "data": True})
+    assert told == [("success", exchange_module.COPIED)]
+    curve = tig.StiffnessCurve([(5, 20e6, 0.1), (500, 30e6, 0.2)])
+    design = session.inputs.to_design().replace(boot_stiffness=curve, boot_loss_factor=None)
+    told.clear()
+
+    async def run():
+        session.inputs.take(values_of(design))
+        exchange.handle_message({"kind": "copied", "data": True})
+
+    asyncio.run(run())
+    ((kind, words),) = told
+    assert kind == "warning"
+    assert "needs the study file: it cannot hold boot stiffness." in words

@@ -2,6 +2,7 @@
 
 import asyncio
 import threading
+import time
 from concurrent.futures import Future
 
 import numpy as np
@@ -502,4 +503,75 @@ def test_waiting_for_a_worker_does_not_count_as_long(make_store, fake_picture, m
         await until(lambda: (300, AT_REST) in shown)
 
     asyncio.run(wait())
-    assert shown == [(300, MOVING), (300, AT_REST)]
+    # the exact curve comes first where the live run is not there by then
+    assert [each for each in shown if each != (300, AT_ONCE)] == [(300, MOVING), (300, AT_REST)]
+
+
+def test_where_others_wait_for_runs_the_exact_curve_is_drawn_at_once(make_store, live_gate, monkeypatch):
+    monkeypatch.setattr(runner_module, "SOON", WAIT)
+    live_store = make_store(live_gate.solve, workers=2, spare=1)
+    session = Session(make_store(live_gate.solve), live_store)
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+    slow = tig.PRESETS["slab-track"].replace(pad_stiffness=500e6)
+    for mass in (700, 800):
+        live_store.request((slow.replace(wheel_mass=mass), MOVING), owner=mass)
+
+    async def drag():
+        session.inputs.pad_stiffness = 600
+        await until(lambda: shown == [(600, AT_ONCE)])
+        live_gate.open.set()
+        await until(lambda: (600, AT_REST) in shown)
+
+    asyncio.run(drag())
+    assert shown == [(600, AT_ONCE), (600, MOVING), (600, AT_REST)]
+
+
+def test_a_curve_stays_whose_live_run_was_given_up_before_it_came(make_store, fake_picture, monkeypatch):
+    monkeypatch.setattr(runner_module, "SOON", 0.0)
+    given_up = threading.Event()
+
+    def solve(key, *_):
+        if key[1] == MOVING:
+            given_up.set()
+            raise tig.RunTooLargeError("too large")
+        if key[1] == AT_ONCE:
+            given_up.wait(WAIT)
+            time.sleep(0.05)  # the refusal is heard first
+        return fake_picture(key[0], fidelity=key[1])
+
+    session = Session(make_store(solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+    session.runner._live_is_slow = True
+    session.change(pad_stiffness=500)
+    assert shown == [(500, AT_ONCE), (500, AT_REST)]
+
+
+@pytest.mark.parametrize(("taken", "asked_for_paper"), [(0.0, True), (0.2, False)])
+def test_a_hand_rests_only_after_twice_the_time_that_a_picture_takes(
+    make_store, fake_picture, monkeypatch, taken, asked_for_paper
+):
+    """While a busy server draws slowly, moves that follow each picture cause no run at rest."""
+    monkeypatch.setattr(runner_module, "SOON", WAIT)
+    solved = []
+
+    def solve(key, *_):
+        if key[1] == MOVING:
+            time.sleep(taken)
+        solved.append((key[0].pad_stiffness / 1e6, key[1]))
+        return fake_picture(key[0], fidelity=key[1])
+
+    session = Session(make_store(solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+
+    async def drag():
+        session.inputs.pad_stiffness = 500
+        await until(lambda: (500, MOVING) in shown)
+        await asyncio.sleep(0.15)
+        session.inputs.pad_stiffness = 600
+        await until(lambda: (600, AT_REST) in shown)
+
+    asyncio.run(drag())
+    assert ((500, AT_REST) in solved) == asked_for_paper

@@ -388,3 +388,35 @@ def test_every_figure_has_a_name_for_screen_readers(gain):
     for figure in (gain, ForceFigure()):
         assert figure.model.html_attributes["role"] == "figure"
         assert len(figure.model.html_attributes["aria-label"]) > 10
+
+
+def measured(summary, *points):
+    """Return a picture of a design whose pad was measured at frequencies [Hz]."""
+    curve = tig.StiffnessCurve([(each, 100e6, 0.2) for each in points])
+    design = summary.design.replace(pad_stiffness=curve, pad_loss_factor=None)
+    return dataclasses.replace(summary, solution=dataclasses.replace(summary.solution, design=design))
+
+
+def test_bands_that_rest_on_extrapolation_are_hatched_and_listed(gain, summary):
+    table_1 = summary("slab-track")
+    draw(gain, measured(table_1, 1, 30))
+    np.testing.assert_allclose(gain.extrapolated.data["left"], tig.BAND_EDGES[8:-1])
+    np.testing.assert_allclose(gain.extrapolated.data["right"], tig.BAND_EDGES[9:])
+    assert tig.BAND_LABELS[8] == "31.5"
+    assert listed(gain) == ["this design", "beyond what was measured of this design"]
+    assert gain.model.renderers[0].data_source is gain.extrapolated
+    draw(gain, measured(table_1, 5, 500))
+    assert listed(gain) == ["this design"]
+    assert len(gain.extrapolated.data["left"]) == 0
+
+
+def test_nothing_is_hatched_of_table_1(gain, summary):
+    draw(gain, summary("slab-track"))
+    assert len(gain.extrapolated.data["left"]) == 0
+    assert gain.model.select({"name": "extrapolated"}) == []
+
+
+def test_a_design_that_is_not_drawn_is_not_hatched(gain, summary):
+    picture = measured(summary("slab-track"), 1, 30)
+    gain.show(current(picture), (pinned(summary("slab-track"), "Slab"),), alone=True)
+    assert len(gain.extrapolated.data["left"]) == 0

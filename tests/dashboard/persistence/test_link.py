@@ -8,9 +8,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from dashboard.fields import INPUTS, NUMBERS, six_figures
-from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
-from dashboard.session.inputs import DesignInputs, GainDefinition, check_values, design_of, preset_values
+from dashboard.fields import EXTRA_FIELDS, EXTRAS, NUMBERS, SHOWN, six_figures
+from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode, left_out
+from dashboard.session.inputs import (
+    DesignInputs,
+    GainDefinition,
+    check_values,
+    design_of,
+    preset_values,
+    values_of,
+)
 from dashboard.session.pins import Pins
 from dashboard.theme import MOST_PINNED
 from trackig_core.names import LONGEST_NAME
@@ -46,12 +53,19 @@ def pin(name, colour, values, shown=True):
     return tig.PinnedDesign(name, design_of(values), colour, shown, values["preset"])
 
 
+def extra(name):
+    """Return any value of an extra number: nothing too, where there may be none."""
+    return st.one_of(st.just(EXTRA_FIELDS[name].default), number(name))
+
+
 any_values = st.fixed_dictionaries(
     {
         "preset": st.sampled_from([*tig.PRESETS]),
         "two_stage": st.booleans(),
         "rail": st.sampled_from([*tig.RAILS]),
         **{name: number(name) for name in NUMBERS},
+        "special": st.just({}),
+        **{name: extra(name) for name in EXTRAS},
     }
 )
 any_view = st.fixed_dictionaries(
@@ -87,7 +101,22 @@ def test_a_link_reopens_the_same_design(values):
 
 
 def test_the_whole_design_is_in_a_link_even_if_it_is_the_opening_one():
-    assert {*INPUTS} <= arguments(encode(OPENING)).keys()
+    assert {*SHOWN} <= arguments(encode(OPENING)).keys()
+
+
+def test_extra_numbers_stand_in_a_link_only_where_they_are_set():
+    assert not {*EXTRAS} & arguments(encode(OPENING)).keys()
+    set_ = OPENING | {"wheelbase": 2.5, "stiffness_frequency": 10.0}
+    assert {*EXTRAS} & arguments(encode(set_)).keys() == {"wheelbase", "stiffness_frequency"}
+
+
+@pytest.mark.parametrize(
+    "extras", ["x", "pad_static_stiffness", "pad_static_stiffness=", "wheel_load=9", ";;=1"]
+)
+def test_extra_numbers_of_a_pin_that_cannot_be_read_change_nothing(extras):
+    (kept,) = opened(pin=pin_text(shown=f"1;{extras}")).pins
+    assert kept.design == design_of(OPENING)
+    assert kept.shown
 
 
 def test_a_kept_link_opens_the_same_study_for_ever():
@@ -105,6 +134,8 @@ def test_a_kept_link_opens_the_same_study_for_ever():
         "fastener_spacing": 0.65,
         "wheel_mass": 900.0,
         "contact_stiffness": 1300.0,
+        "special": {},
+        **{name: field.default for name, field in EXTRA_FIELDS.items()},
     }
     assert link.view == {"summation": "coherent", "reference": "rigid"}
     (opened_pin,) = link.pins
@@ -137,19 +168,55 @@ def test_a_link_by_hand_names_a_preset_and_what_differs():
 @pytest.mark.parametrize(
     ("raw", "value"),
     [
-        (b"1e99", 2000.0),
-        (b"1e999", 2000.0),
-        (b"-0", 10.0),
-        (b"-5", 10.0),
-        (b"9.99", 10.0),
-        (b"2000.01", 2000.0),
+        (b"1e99", 1e13),
+        (b"1e999", 1e13),
+        (b"-0", 1e5),
+        (b"-5", 1e5),
+        (b"0.0999", 1e5),
+        (b"10000001", 1e13),
     ],
 )
-def test_numbers_out_of_range_are_clamped_and_said(raw, value):
+def test_numbers_that_no_track_has_are_clamped_and_said(raw, value):
     link = opened(pad_stiffness=raw)
-    assert link.values == {**OPENING, "pad_stiffness": value}
+    assert design_of(link.values) == design_of(OPENING).replace(pad_stiffness=value)
     (problem,) = link.problems
-    assert re.fullmatch(r"Pad stiffness is .*, beyond 10 to 2000; \d+ was taken\.", problem)
+    assert re.fullmatch(r"Pad stiffness is .*, beyond 0.1 to 1e\+07; [\d.e+]+ was taken\.", problem)
+
+
+@pytest.mark.parametrize(
+    "stiffness", [9.99e6, 2000.01e6, 3000e6, 100.0001e6, 123456789.125, 5e12 / 3 // 1, 1e13]
+)
+def test_numbers_that_no_slider_shows_come_back_exactly(stiffness):
+    design = design_of(OPENING).replace(pad_stiffness=float(stiffness))
+    values = preset_values(OPENING["preset"]) | values_of(design)
+    pinned = (tig.PinnedDesign("Odd", design, preset=OPENING["preset"]),)
+    link = decode(arguments(encode(values, {}, pinned, 0)))
+    assert link.values == values
+    assert (link.pins, link.base, link.problems) == (pinned, 0, ())
+    assert left_out(values, pinned) == ""
+
+
+CURVE = tig.StiffnessCurve([(5, 90e6, 0.1), (500, 150e6, 0.2)])
+NEEDS_FILE = {
+    "a curve": ({"pad_stiffness": CURVE, "pad_loss_factor": None}, "Pad stiffness", "pad stiffness"),
+    "a rail": ({"rail": tig.Rail("UIC 60 worn", 58.0, 6e6)}, "Rail section", "rail section"),
+}
+
+
+@pytest.mark.parametrize(("changes", "said", "copied"), NEEDS_FILE.values(), ids=NEEDS_FILE)
+def test_what_needs_the_study_file_is_said_where_the_link_is_opened_and_copied(changes, said, copied):
+    design = design_of(OPENING).replace(**changes)
+    odd, plain = tig.PinnedDesign("Odd", design), pin("Plain", 1, OPENING)
+    values = preset_values(OPENING["preset"]) | values_of(design)
+    link = decode(arguments(encode(values, {}, (odd, plain), 1)))
+    assert link.values == OPENING
+    assert (link.pins, link.base) == ((plain,), 0)
+    assert link.problems == (
+        f"{said}: the link cannot hold it and needs the study file; the sliders stand in.",
+        "Pinned designs with curves or rails of their own are missing: they are in the study file.",
+    )
+    assert left_out(values, (odd, plain)) == f"{copied}, “Odd”"
+    assert decode(arguments(encode(values, {}, (odd, plain), 0))).base is None
 
 
 @pytest.mark.parametrize(
@@ -226,7 +293,7 @@ def test_a_newer_link_is_opened_as_far_as_it_is_known():
 
 def pin_text(colour="0", shown="1", name="Pin", **values):
     return "~".join(
-        (colour, shown, *(str(v) for v in {**OPENING, "two_stage": 1, **values}.values()), name)
+        (colour, shown, *(str({**OPENING, "two_stage": 1, **values}[key]) for key in SHOWN), name)
     ).encode()
 
 
@@ -261,8 +328,8 @@ def test_pins_are_made_to_differ():
 
 def test_values_of_pins_are_clamped_and_said():
     link = opened(pin=pin_text(block_mass="1e6"))
-    assert link.pins[0].design.block_mass == 500
-    assert link.problems == ("Pin 1: Block mass is 1e+06, beyond 10 to 500; 500 was taken.",)
+    assert link.pins[0].design.block_mass == 1e4
+    assert link.problems == ("Pin 1: Block mass is 1e+06, beyond 1 to 10000; 10000 was taken.",)
 
 
 def test_eight_pins_are_taken_of_a_thousand():
@@ -283,7 +350,7 @@ def test_names_in_a_link_are_shown_as_one_short_line():
     assert named.name == "a b" + "c" * 35 + "…"
 
 
-any_key = st.sampled_from(["v", "pin", "base", *INPUTS, *VIEW_CHOICES]) | st.text()
+any_key = st.sampled_from(["v", "pin", "base", "file", *SHOWN, *VIEW_CHOICES]) | st.text()
 any_raw = (
     st.binary()
     | st.text().map(lambda text: text.encode("utf-8", "surrogatepass"))
@@ -292,6 +359,7 @@ any_raw = (
     | st.lists(st.sampled_from([b"~", b"0", b"1", b"60", b"slab-track", b"9e9", b"\xff"]), max_size=30).map(
         b"".join
     )
+    | st.sampled_from([b"pins", b"rail,pad_stiffness", ",".join(SHOWN).encode(), b"<b>,pins"])
     | any_pins.filter(bool).map(lambda pins: pin_text(name=pins[0].name))
 )
 

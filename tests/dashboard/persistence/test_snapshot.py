@@ -88,7 +88,7 @@ def test_a_study_replaces_what_was_there(filled, summary):
         lambda _: "",
         lambda text: text.replace("version = 1", "version = 2"),
         lambda text: text.replace("pad_loss_factor", "pad_los_factor"),
-        lambda text: text.replace("fastener_spacing_m = 0.75", "fastener_spacing_m = 1.75"),
+        lambda text: text.replace("fastener_spacing_m = 0.75", "fastener_spacing_m = 2.75"),
         lambda text: text + "x" * 300_000,
         lambda text: text.encode("utf-16"),
         lambda _: b"\xff\x00\xfe",

@@ -250,7 +250,7 @@ def plots(monkeypatch):
         axes[name] = figure.axes[0]
         return ""
 
-    monkeypatch.setattr("dashboard.report.plots._svg", keep)
+    monkeypatch.setattr("dashboard.report.plots.svg", keep)
     return axes
 
 

@@ -49,9 +49,10 @@ It {{ percent loaded_track }}.
 SHIPPED, PROBLEMS = load_lessons()
 
 
-def test_six_lessons_ship_in_their_order():
+def test_seven_lessons_ship_in_their_order():
     assert PROBLEMS == ()
     subjects = ["Stiffness", "Mass", "Spacing", "Damping", "One stage or two", "Reading a specification"]
+    subjects.append("Tolerances")
     assert [lesson.title.split(":")[0] for lesson in SHIPPED] == subjects
 
 
@@ -67,9 +68,13 @@ def test_every_lesson_is_true_by_the_solver(lesson):
 
 @pytest.mark.parametrize("lesson", SHIPPED, ids=lambda lesson: lesson.file)
 def test_every_level_in_a_revealed_text_is_computed(lesson):
-    """Only the lumped model's 12 and 24 dB per octave are written: they are theory, asserted elsewhere."""
+    """Written are the lumped model's 12 and 24 dB per octave, theory that is asserted elsewhere, and limits.
+
+    A limit is what is asked for: a figure of the same text is computed for it.
+    """
     written = re.sub(r"\{\{.*?\}\}", "", lesson.reveal)
-    assert set(re.findall(r"(\d+) dB", written)) <= {"12", "24"}
+    limits = re.findall(r"at_most\(\w+, [\d.]+, (-?[\d.]+)\)", lesson.reveal)
+    assert set(re.findall(r"(-?[\d.]+) dB", written)) <= {"12", "24", *limits}
 
 
 @pytest.mark.parametrize("lesson", SHIPPED, ids=lambda lesson: lesson.file)

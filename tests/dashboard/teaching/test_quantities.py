@@ -36,6 +36,21 @@ def test_figures_are_those_of_the_solver():
     assert written("stiffening(500)") == f"{boot.stiffness(500.0) / boot.stiffness(50.0):.3g}"
 
 
+def test_decisions_are_those_of_the_library():
+    limits = tig.Specification([(63, -1.5)])
+    found = tig.decide.feasible_ranges(BLOCK, limits, fields=["boot_stiffness"])
+    assert written("before at_most(boot_stiffness, 63, -1.5)") == (
+        f"{found['boot_stiffness'][-1][1] / 1e6:.3g} kN/mm"
+    )
+    scatter = {"pad_stiffness": 0.15, "boot_stiffness": 0.15}
+    sure = tig.decide.tolerance(BLOCK, limits, scatter, samples=2048)
+    assert written("before production(63, -1.5, 15)") == f"{100 * sure.probability:.0f} %"
+    slab = tig.decide.tolerance(SLAB, limits, {"pad_stiffness": 0.15}, samples=2048)
+    assert written("production(63, -1.5, 15)", after=SLAB) == f"{100 * slab.probability:.0f} %"
+    # a share of production changes by points, not by parts of itself
+    assert read_claim("production(63, -1.5, 15) rises by at most 45 %")(BLOCK, SOFTER)
+
+
 def test_sliders_are_written_in_their_own_units():
     assert written("boot_stiffness") == "14 kN/mm"
     assert written("before boot_stiffness") == "28 kN/mm"
@@ -79,6 +94,11 @@ def test_claims_are_judged(claim, true):
         ("insertion_gains(63)", "give insertion_gain"),
         ("insertion_gain", "give a band"),
         ("insertion_gain(64)", "give a band"),
+        ("at_most(63, -1.5)", "give a slider, a band and a limit"),
+        ("at_most(boot_stiffness, 63, low)", "low is no number"),
+        ("production(63)", "give a band"),
+        ("production(63, -1.5)", "give a band"),
+        ("production(63, -1.5, 150)", "give a tolerance above 0 and up to 90 %"),
         ("insertion_gain(63, loud)", "energy or coherent"),
         ("insertion_gain(63, line, rigid)", "not both"),
         ("insertion_gain(63, line, line)", "not both"),

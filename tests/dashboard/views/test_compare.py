@@ -1,6 +1,7 @@
 """Designs side by side: the list of pins, the table, differences from a base, undo and redo, the drawing."""
 
 import dataclasses
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,12 +14,15 @@ from dashboard.client.browser import Browser
 from dashboard.figures.swatches import swatch_svg
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
+from dashboard.session.measuring import Measuring
 from dashboard.session.pins import Pins
 from dashboard.session.results import DesignResult, Outcome
+from dashboard.session.shelf import Shelf
 from dashboard.session.steps import Steps
 from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
+from dashboard.views.comparison_table import table_html
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.likeness import Likeness, likeness_words
 from dashboard.views.track import Track
@@ -278,9 +282,35 @@ def test_a_ninth_pin_is_refused_and_its_name_kept(bar):
     assert bar.bar.name_box.value == "one more"
 
 
+class FakeExchange:
+    def on_file(self, purpose, callback):
+        """Take no file."""
+
+
+def track_of(inputs, picture):
+    """Return the tab Track of a solved design, without the response to a hammer."""
+    outcome = Outcome(summary=picture)
+    return Track(inputs, outcome, Measuring(), Shelf(), FakeExchange(), None, lambda _: None)
+
+
+def test_a_rail_of_one_s_own_is_named_on_the_track(summary):
+    inputs = DesignInputs()
+    track = track_of(inputs, summary("slab-track"))
+    track.look(active=True)
+    assert not track.rail_name.visible
+    inputs.take_given({"rail": "own"})
+    assert (track.rail_name.visible, track.rail_name.value) == (True, "own")
+    track.rail_name.value = "UIC 54, worn"
+    assert inputs.to_design().rail.name == "UIC 54, worn"
+    assert "UIC 54, worn" in track.drawing.object
+    track.rail_name.value = "\n"
+    assert track.rail_name.error_state
+    assert inputs.to_design().rail.name == "UIC 54, worn"
+
+
 def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     inputs = DesignInputs()
-    track = Track(inputs, Outcome(summary=summary("slab-track")))
+    track = track_of(inputs, summary("slab-track"))
     assert track.drawing.object == ""
     track.look(active=True)
     inputs.block_mass = 222.0
@@ -343,3 +373,40 @@ def test_insertion_gain_itself_is_drawn_beside_its_differences(session):
     assert gains.model.y_range.start <= min(data["pin_8"].min(), data["pin_1"].min())
     session.definition.summation = "coherent"
     assert gains.model.yaxis[0].axis_label == "IG, dB (coherent / line)"
+
+
+def test_own_rails_and_curves_are_compared_in_words(fake_picture):
+    curve = tig.StiffnessCurve([(5, 20e6, 0.1), (500, 30e6, 0.2)])
+    plain = tig.PRESETS["booted-block-low-mass"]
+    odd = plain.replace(boot_stiffness=curve, boot_loss_factor=None, rail=tig.Rail("worn", 58.0, 6e6))
+    results = []
+    for number, design in enumerate((plain, odd, plain.replace(boot_stiffness=300e6))):
+        picture = fake_picture(design)
+        record = tig.PinnedDesign(f"Design {number}", design, key=number + 1)
+        results.append(DesignResult(record, picture, picture.solution.gain))
+    table = table_html(results, results[0], ())
+    rows = re.findall(r'<th scope="row">(.*?)</th>(.*?)</tr>', table)
+    cells = {label: re.findall(r"<td>(.*?)</td>", row) for label, row in rows}
+    assert cells["Boot stiffness, kN/mm"][1] == "measured at 2 frequencies, 5 to 500 Hz"
+    assert cells["Boot stiffness, kN/mm"][2] == '300<span class="difference">+272</span>'
+    assert cells["Boot loss factor"][1] == "in the stiffness table"
+    assert cells["Rail section"] == ["60", "worn: 58 kg/m, 6 MN m²", "60"]
+    assert "60 and worn: 58 kg/m, 6 MN m²" in likeness_words([each.design for each in results])
+
+
+def test_statics_stand_side_by_side_and_only_extra_numbers_that_are_set():
+    block = tig.PRESETS["booted-block-low-mass"]
+    stated = block.replace(pad_static_stiffness=70e6, boot_static_stiffness=20e6, stiffness_frequency=10.0)
+    load = tig.study.StaticLoad(100e3)
+    results = [
+        DesignResult(tig.PinnedDesign("one", design), statics=load.response(design))
+        for design in (block, stated)
+    ]
+    text = table_html(results, results[0], [])
+    first, second = (1e3 * each.statics.rail_deflection for each in results)
+    assert "Under one wheel of 100 kN" in text
+    assert f"<td>≥ {first:.2f}</td>" in text
+    assert f'<td>{second:.2f}<span class="difference">+{second - first:.2f}</span></td>' in text
+    assert "Stiffness stated at, Hz" in text
+    assert "Pad static stiffness" in text
+    assert "Pad static stiffness" not in table_html(results[:1], results[0], [])

@@ -1,17 +1,26 @@
 """The tab Decide: every figure on it is the library's, in the units of the sliders."""
 
 import asyncio
+import csv
+import dataclasses
+import json
+import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import trackig_core as tig
+from dashboard.compute.feasibility import Feasibility, where
 from dashboard.fields import FIELDS
+from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
+from dashboard.session.production import Production
 from dashboard.session.results import Outcome
-from dashboard.views.decide import NO_SPECIFICATION, Decide, where
+from dashboard.views.asked import NO_SPECIFICATION
+from dashboard.views.decide import Decide
 
 WAIT = 60
 LIMITS = tig.Specification(
@@ -29,7 +38,14 @@ class Session:
         outcome = Outcome(summary=summary("booted-block-low-mass"))
         self.assessment = Assessment(self.inputs, outcome, self.definition, self.pins, self.pinned)
         self.assessment.specification = specification
-        self.view = Decide(self.inputs, self.definition, self.pins, self.assessment)
+        self.snapshot = SessionSnapshot(self.inputs, self.definition, self.pins, self.assessment)
+        self.saved, self.production = [], Production()
+        self.exchange = SimpleNamespace(save=lambda *file: self.saved.append(file), introduce=lambda: None)
+        self.do(self._make)
+
+    def _make(self):
+        self.feasibility = Feasibility(self.inputs, self.definition, self.assessment)
+        self.view = Decide(self.snapshot, self.exchange, self.feasibility, self.production)
 
     def do(self, action, *arguments, **values):
         """Call something on an event loop, and wait for all that it set going."""
@@ -50,7 +66,7 @@ def session(summary, make_pictures):
 
 def test_nothing_is_asked_that_nobody_looks_at(session):
     session.do(session.assessment.param.trigger, "results")
-    assert session.view.how_far.inquiry.asked is None
+    assert session.view.what_matters.inquiry.asked is None
 
 
 def test_without_a_specification_it_says_what_to_do(summary, make_pictures):
@@ -67,7 +83,12 @@ def test_ranges_are_the_library_s_in_the_units_of_the_sliders(session):
     expected = tig.decide.feasible_ranges(BLOCK, LIMITS, fields=list(FIELDS))
     assert dict(view.inquiry.result) == dict(expected)
     (low, high), *_ = expected["boot_stiffness"]
-    assert f"{high / 1e6:.4g} kN/mm" in view.table.object
+    shown = float(re.search(r"to ([\d.]+) kN/mm", where(expected, "boot_stiffness"))[1])
+    # the number itself complies, and no greater one of as many figures
+    assert 0.999 * high <= shown * 1e6 <= high
+    many = tig.solve_many(BLOCK, boot_stiffness=np.array([shown, shown + 0.02]) * 1e6)
+    assert list(tig.decide.Requirements(LIMITS).complies(many)) == [True, False]
+    assert f"to {shown:g} kN/mm" in view.table.object
     assert "kN/mm" in view.sentence.object
     assert "mm" in view.sentence.object, "how far the rail sinks"
     assert where(expected, "boot_stiffness") in view.table.object
@@ -126,7 +147,7 @@ def test_a_tap_on_the_map_takes_the_design_there(session):
     view = session.view.map
     session.do(view.ask)
     found = view.inquiry.result
-    view._tapped(20.0, 100.0)
+    session.do(view._tapped, 20.0, 100.0)
     taken = session.inputs.to_design()
     expected = found.design_at(20e6, 100.0)
     assert taken.boot_stiffness == pytest.approx(expected.boot_stiffness, rel=1e-5)
@@ -160,8 +181,10 @@ def test_a_search_is_drawn_taken_and_pinned(session):
     expected = found.many.design(int(found.front[0]))
     levels = view.cloud.curves.data["ys"][0]
     np.testing.assert_allclose(levels, tig.solve(expected, "exact").insertion_gain, atol=0.01)
-    view.take.param.trigger("clicks")
-    view.pin.param.trigger("clicks")
+    view.pin_name.value = "Best <b>"
+    session.do(view.take.param.trigger, "clicks")
+    session.do(view.pin.param.trigger, "clicks")
+    assert session.pins.pinned[0].name == "Best <b>"
     assert session.inputs.boot_stiffness == pytest.approx(expected.boot_stiffness / 1e6, rel=1e-5)
     assert session.pins.pinned[0].design == session.inputs.to_design()
 
@@ -170,3 +193,148 @@ def test_with_nothing_free_it_says_what_to_do(session):
     session.view.search.free.value = []
     session.do(session.view.search.ask)
     assert "Choose which numbers are free" in session.view.search.sentence.object
+
+
+def kept(session, view):
+    """Keep the answer of a question, and return it."""
+    session.do(view.keep.param.trigger, "clicks")
+    return session.snapshot.answers.kept[-1]
+
+
+def test_a_kept_answer_is_part_of_the_study_and_comes_out_again(session):
+    session.do(session.view.what_matters.ask)
+    answer = kept(session, session.view.what_matters)
+    assert "changes it by" in answer.sentence
+    assert answer.holds()
+    study = tig.Study.from_toml(session.snapshot.study().to_toml())
+    assert study.answers == (answer,)
+    # the same question again takes the place of the answer, and is not kept twice
+    kept(session, session.view.what_matters)
+    assert len(session.snapshot.answers.kept) == 1
+    ((_, row),) = session.view.kept.rows
+    session.do(row.again.param.trigger, "clicks")
+    assert "The same figures came out, to the last bit" in row.outcome.object
+    session.do(row.remove.param.trigger, "clicks")
+    assert session.snapshot.answers.kept == ()
+    assert session.view.kept.rows == ()
+
+
+def test_an_opened_answer_is_listed_and_a_false_one_is_found_out(session):
+    session.do(session.view.what_matters.ask)
+    answer = kept(session, session.view.what_matters)
+    forged = dataclasses.replace(answer, digest="0" * 64, versions={**answer.versions, "numpy": "1.0"})
+    text = dataclasses.replace(session.snapshot.study(), answers=(forged,)).to_toml()
+    session.do(session.snapshot.open, text)
+    assert session.snapshot.answers.kept == (forged,)
+    ((_, row),) = session.view.kept.rows
+    assert forged.sentence[:20] in row.words.object
+    session.do(row.again.param.trigger, "clicks")
+    assert "Other figures came out: it was computed with numpy 1.0, now " in row.outcome.object
+    assert session.snapshot.answers.pages == {}
+
+
+@pytest.mark.parametrize("name", ["how_far", "what_matters", "how_sure", "map", "search", "what_scatters"])
+def test_every_answer_can_be_saved_with_all_that_obtains_it_again(session, name):
+    view = getattr(session.view, name)
+    session.view.how_sure.samples.value = 1000
+    session.do(view.ask if name != "how_far" else session.feasibility.ask)
+    session.do(view.export.param.trigger, "clicks")
+    ((file, text),) = session.saved
+    assert file == f"trackig-study-{view.kind}-answer.csv"
+    lines = text.splitlines()
+    remarks = [line for line in lines if line.startswith("# ")]
+    settings = json.loads(next(line for line in remarks if "question:" in line).partition(", ")[2])
+    question = dataclasses.replace(view.inquiry.answered, settings=settings)
+    again = question.ask()
+    assert f"# digest: {tig.decide.questions.digest(again)}" in remarks
+    table = list(csv.reader(lines[len(remarks) :]))
+    frame = again.to_dataframe()
+    assert table[0] == list(frame.columns)
+    assert len(table) == 1 + len(frame)
+    numbers = frame.select_dtypes("number").columns
+    column = [float(row[table[0].index(numbers[0])]) for row in table[1:]]
+    np.testing.assert_array_equal(column, frame[numbers[0]])
+
+
+def test_a_change_for_each_field_is_the_library_s(session):
+    view = session.view.what_matters
+    session.do(view.change.param.update, value=5.0)
+    session.do(view.changes_of["boot_stiffness"].param.update, value=20.0)
+    changes = dict.fromkeys(FIELDS, 0.05) | {"boot_stiffness": 0.2}
+    expected = tig.decide.sensitivity(BLOCK, LIMITS, changes=changes)
+    np.testing.assert_array_equal(view.inquiry.result.bands, expected.bands)
+
+
+def test_what_the_scatter_is_due_to_is_the_library_s(session):
+    view = session.view.what_scatters
+    session.do(view.ask)
+    shares = {name: tig.decide.Uniform(box.value / 100) for name, box in view._how_sure.tolerances.items()}
+    figures = ("margin", "deflection", "loaded_track", "coupled_block")
+    expected = tig.decide.sobol(BLOCK, shares, LIMITS, figures=figures)
+    np.testing.assert_array_equal(view.inquiry.result.total_order, expected.total_order)
+    assert f"{100 * expected.total_order[0].max():.0f} % of the scatter of the governing margin" in (
+        view.sentence.object
+    )
+    assert view.table.object.count("class='bar'") == expected.total_order.size
+
+
+def test_measured_specimens_take_the_place_of_their_tolerances(session):
+    view = session.view.how_sure
+    view.samples.value = 1000
+    view.pasted.value = "Boot stiffness, MN/m\tBoot loss factor\n26\t0.19\n28,5\t0.21\n31\t0.2"
+    session.do(view.read.param.trigger, "clicks")
+    assert "Boot stiffness and boot loss factor scatter as in 3 specimens" in view.specimens.object
+    assert view.tolerances["boot_stiffness"].disabled
+    session.do(view.ask)
+    shares = {
+        name: box.value / 100
+        for name, box in view.tolerances.items()
+        if name not in ("boot_stiffness", "boot_loss_factor")
+    }
+    table = {"boot_stiffness": [26e6, 28.5e6, 31e6], "boot_loss_factor": [0.19, 0.21, 0.2]}
+    expected = tig.decide.tolerance(BLOCK, LIMITS, shares, production=table, samples=1000)
+    assert view.inquiry.result.complying == expected.complying
+    np.testing.assert_array_equal(view.inquiry.result.percentiles, expected.percentiles)
+    view.pasted.value = "colour\nred"
+    session.do(view.read.param.trigger, "clicks")
+    assert 'class="problem"' in view.specimens.object
+    session.do(view.forget.param.trigger, "clicks")
+    assert "production" not in view.settings()
+
+
+def test_production_is_drawn_in_explore_for_its_own_design_alone(session):
+    view = session.view.how_sure
+    view.samples.value = 1000
+    session.do(view.ask)
+    assert session.production.band(BLOCK, session.definition) is None, "nobody asked for it"
+    session.do(view.in_explore.param.update, value=True)
+    np.testing.assert_array_equal(
+        session.production.band(BLOCK, session.definition), view.inquiry.result.percentiles[[0, 2]]
+    )
+    assert session.production.band(BLOCK.replace(block_mass=50.0), session.definition) is None
+    session.do(session.definition.param.update, summation="coherent")
+    assert session.production.band(BLOCK, session.definition) is None
+
+
+def test_a_search_chooses_from_the_catalogue_within_a_deflection(session):
+    view = session.view.search
+    view.chosen.value = ["rail", "pad"]
+    view.free.value = ["boot_stiffness", "pad_stiffness"]
+    view.deflection.value = 1.2
+    settings = view.settings()
+    assert settings["free"] == ["boot_stiffness"], "the pad's stiffness comes with the pad"
+    assert settings["max_deflection"] == pytest.approx(1.2e-3)
+    assert settings["choices"]["rail"] == list(tig.RAILS)
+    pads = tig.study.bundled_catalogue().of_kind("pad")
+    assert [each["pad_stiffness"] for each in settings["choices"]["pad"]] == [
+        each.values["pad_stiffness"] for each in pads.values()
+    ]
+    settings |= {"population": 20, "generations": 3}
+    found = tig.decide.Question("find", BLOCK, settings, specification=LIMITS).ask()
+    session.do(view.show, found)
+    ticks = view.cloud.fields.xaxis.major_label_overrides
+    assert [label.partition("\n")[0] for label in ticks.values()] == [
+        "Pad stiffness",
+        "Pad loss factor",
+        "Boot stiffness",
+    ]

@@ -3,9 +3,12 @@
 import pytest
 
 import trackig_core as tig
-from dashboard.fields import CLOSED_GROUPS, FIELDS, NUMBERS, SECOND_STAGE
-from dashboard.session.inputs import DesignInputs
+from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, NUMBERS, RAIL_FIELDS, SECOND_STAGE
+from dashboard.session.inputs import DesignInputs, values_of
 from dashboard.session.results import Outcome
+from dashboard.session.shelf import Shelf
+from dashboard.session.special import OWN_RAIL
+from dashboard.views import sidebar
 from dashboard.views.sidebar import Controls
 
 
@@ -22,7 +25,7 @@ def outcome(summary):
 @pytest.fixture
 def panel(inputs, outcome, monkeypatch):
     """Return the panel; its answers are kept in ``answers``."""
-    quantities = Controls(inputs, outcome).quantities
+    quantities = Controls(inputs, outcome, Shelf()).quantities
     answers = []
     monkeypatch.setattr(quantities, "_send_msg", answers.append)
     quantities.answers = answers
@@ -36,14 +39,14 @@ def give(panel, number=1, **values):
 
 def test_every_field_has_a_row_in_its_group(panel):
     rows = {row["name"]: (group, row) for group in panel.groups for row in group["fields"] if "name" in row}
-    assert set(rows) == {*FIELDS, "preset", "two_stage", "rail"}
-    for name, field in FIELDS.items():
+    assert set(rows) == {*EVERY_FIELD, *RAIL_FIELDS, "preset", "two_stage", "rail"}
+    for name, field in EVERY_FIELD.items():
         group, row = rows[name]
         assert group["title"] == field.group
         assert group["closed"] == (field.group in CLOSED_GROUPS)
         assert (row["low"], row["high"], row["unit"]) == (field.low, field.high, field.unit)
     assert [value for _, value in rows["preset"][1]["options"]] == list(tig.PRESETS)
-    assert [value for _, value in rows["rail"][1]["options"]] == list(tig.RAILS)
+    assert [value for _, value in rows["rail"][1]["options"]] == [*tig.RAILS, OWN_RAIL]
 
 
 def test_what_is_set_becomes_one_change(panel, inputs):
@@ -193,3 +196,74 @@ def test_a_click_on_a_chip_is_handed_on(panel):
     panel.chips = {"boot_stiffness": "measured"}
     panel.handle_message({"kind": "chip", "name": "boot_stiffness"})
     assert clicked == ["boot_stiffness"]
+
+
+CURVE = tig.StiffnessCurve([(5, 20e6, 0.1), (30, 30e6, 0.2)])
+
+
+def test_a_curve_stands_as_a_chip_in_the_place_of_its_sliders(panel, inputs):
+    assert panel.chips == {}
+    inputs.take(values_of(inputs.to_design().replace(boot_stiffness=CURVE, boot_loss_factor=None)))
+    assert panel.chips == {
+        "boot_stiffness": "measured at 2 frequencies, 5 to 30 Hz",
+        "boot_loss_factor": "measured with the stiffness",
+    }
+    give(panel, two_stage=False)
+    assert panel.chips == {}
+
+
+def test_a_number_beyond_a_slider_is_shown_as_it_is(panel, inputs):
+    inputs.take(values_of(inputs.to_design().replace(boot_stiffness=300e6)))
+    assert panel.state["values"]["boot_stiffness"] == 300
+    assert panel.chips == {}
+
+
+def test_a_rail_of_one_s_own_shows_its_sliders(panel, inputs):
+    assert panel.state["hidden"] == [*RAIL_FIELDS]
+    give(panel, rail=OWN_RAIL)
+    assert (panel.state["hidden"], panel.state["values"]["rail"]) == ([], OWN_RAIL)
+    give(panel, number=2, mass_per_metre=58)
+    assert inputs.to_design().rail.mass_per_metre == 58
+    assert panel.state["values"]["mass_per_metre"] == 58
+
+
+def pick(panel, kind, name):
+    """Send what the browser sends when a component is chosen."""
+    panel.handle_message({"kind": "pick", "of": kind, "name": name})
+
+
+def test_components_of_the_catalogue_are_offered_in_their_groups(panel):
+    assert {group["title"]: group["kinds"] for group in panel.groups if group["kinds"]} == {
+        "Rail pad": ["pad"],
+        "Block and boot": ["block", "boot"],
+        "Track": ["rail"],
+    }
+    for kind in ("rail", "pad", "block", "boot"):
+        assert panel.catalogue[kind] == [*tig.study.bundled_catalogue().of_kind(kind)]
+
+
+def test_a_chosen_component_becomes_the_design_s(panel, inputs):
+    before = inputs.to_design()
+    component = list(tig.study.bundled_catalogue().of_kind("pad").values())[-1]
+    pick(panel, "pad", component.name)
+    assert inputs.to_design() == component.fitted_to(before) != before
+    pick(panel, "rail", "49E1")
+    assert inputs.to_design().rail == tig.RAILS["49E1"]
+
+
+@pytest.mark.parametrize("sent", [("pad", "none such"), ("wheel", "60"), ("rail", ""), ("", "60")])
+def test_a_component_that_there_is_not_changes_nothing(panel, inputs, sent):
+    before = inputs.to_design()
+    pick(panel, *sent)
+    assert inputs.to_design() == before
+
+
+def test_a_boot_finds_no_place_on_a_single_stage_track(panel, inputs, monkeypatch):
+    told = []
+    monkeypatch.setattr(sidebar, "notify", lambda kind, words: told.append((kind, words)))
+    inputs.preset = "slab-track"
+    pick(panel, "boot", next(iter(tig.study.bundled_catalogue().of_kind("boot"))))
+    ((kind, words),) = told
+    assert kind == "warning"
+    assert "two-stage" in words
+    assert inputs.to_design() == tig.PRESETS["slab-track"]

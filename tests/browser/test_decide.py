@@ -1,0 +1,127 @@
+"""The tab Decide in the browser, and where a design complies on the sliders, whatever tab is open."""
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+import trackig_core as tig
+from dashboard.compute.feasibility import shown_stretches
+from dashboard.fields import FIELDS
+from tests.browser.conftest import wait_until_at_rest
+from tests.browser.test_dashboard import OPENING, box, slider
+from tests.browser.test_workshop import open_tab
+
+pytestmark = pytest.mark.browser
+
+LIMITS = tig.Specification(
+    [(31.5, 15.0), (63, -4.0), (125, -6.0), (250, -14.0)], rail_deflection_limit=2.5e-3
+)
+
+PANEL = """() => [...Bokeh.documents[0]._all_models.values()].find(
+    model => model.data?.properties?.feasible !== undefined).data"""
+
+
+def paste(page, specification=LIMITS):
+    """Paste a specification, and wait until it is taken."""
+    open_tab(page, "Specification")
+    page.get_by_role("textbox", name="Paste").fill(specification.to_csv().replace(",", "\t"))
+    page.get_by_role("button", name="Take what is pasted").click()
+    expect(page.get_by_role("textbox", name="Limit, dB, 63 Hz")).to_have_value("-4")
+
+
+def expected_stretches(design, specification):
+    found = tig.decide.feasible_ranges(design, specification)
+    return {name: [list(each) for each in shown_stretches(found, name)] for name in FIELDS}
+
+
+def wait_for_stretches(page, design, specification):
+    """Wait until the sliders show where a design complies, none of it of an earlier design."""
+    page.wait_for_function(
+        f"""expected => {{
+            const {{feasible, stale}} = ({PANEL})()
+            return !stale && Object.entries(expected).every(
+                ([name, stretches]) => JSON.stringify(feasible[name]) === JSON.stringify(stretches))
+        }}""",
+        arg=expected_stretches(design, specification),
+    )
+
+
+def opened_specification(page):
+    """Return the specification of the page's own study."""
+    page.wait_for_function(
+        "() => JSON.parse(sessionStorage.getItem('trackig'))?.study.includes('specification')"
+    )
+    study = page.evaluate("() => JSON.parse(sessionStorage.getItem('trackig')).study")
+    return tig.Study.from_toml(study).specification
+
+
+def test_sliders_show_where_the_design_complies_in_every_tab(open_dashboard):
+    page = open_dashboard()
+    paste(page)
+    limits = opened_specification(page)
+    wait_for_stretches(page, OPENING, limits)
+    open_tab(page, "Explore")
+    slider(page, "Block mass, kg").press("PageUp")
+    heavier = OPENING.replace(block_mass=55.0)
+    wait_for_stretches(page, heavier, limits)
+    # the edge is a number to be taken, and what it gives complies
+    edge = page.get_by_role("button", name="Set Boot stiffness to").first
+    stiffness = float(edge.text_content())
+    edge.click()
+    expect(box(page, "Boot stiffness, kN/mm")).to_have_value(f"{stiffness:g}")
+    taken = heavier.replace(boot_stiffness=stiffness * 1e6)
+    assert tig.decide.Requirements(limits).complies(tig.solve_many([taken]))[0]
+    wait_for_stretches(page, taken, limits)
+    page.get_by_role("button", name="Undo (Ctrl+Z)").click()
+    wait_for_stretches(page, heavier, limits)
+
+
+PARTS = ("How far?", "What matters?", "How sure?", "Which tolerance?", "Which one?", "Kept answers")
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768)])
+def test_all_parts_appear_when_the_tab_is_opened_by_click(open_dashboard, width, height):
+    page = open_dashboard(width, height)
+    paste(page)
+    open_tab(page, "Decide")
+    for title in PARTS:
+        expect(page.get_by_role("heading", name=title, exact=True)).to_be_visible()
+    expect(page.get_by_text("The design fails")).to_be_visible()
+    page.wait_for_function("() => Bokeh.documents[0].get_model_by_name('changes')?.data.change.length > 0")
+    drawn = np.array(
+        page.evaluate("() => Array.from(Bokeh.documents[0].get_model_by_name('changes').data.change)")
+    )
+    assert np.abs(drawn).max() > 0.5
+    wait_until_at_rest(page)
+    for name in ("change_figure", "tornado_figure", "percentile_figure"):
+        size = page.evaluate(
+            """name => {
+                const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
+                const {width, height} = view.el.getBoundingClientRect()
+                return [width, height, view.frame.bbox.width]
+            }""",
+            name,
+        )
+        assert min(size) > 200, name
+    # nothing is wider than the window
+    assert page.evaluate("() => document.scrollingElement.scrollWidth <= innerWidth")
+
+
+def test_a_map_is_drawn_kept_and_listed(open_dashboard):
+    page = open_dashboard(query="?tab=decide")
+    for title in PARTS:
+        expect(page.get_by_role("heading", name=title, exact=True)).to_be_visible()
+    paste(page)
+    open_tab(page, "Decide")
+    page.get_by_role("button", name="Draw the map").click()
+    expect(page.get_by_text("of the designs over boot stiffness and block mass comply")).to_be_visible()
+    page.wait_for_function(
+        """() => {
+            const map = Bokeh.documents[0].get_model_by_name("map_figure")
+            return map !== null && Bokeh.index.find_one(map) !== null
+        }"""
+    )
+    page.get_by_role("button", name="Keep the answer").last.click()
+    expect(page.get_by_role("heading", name="Which designs comply over two numbers?")).to_be_visible()
+    page.get_by_role("button", name="Ask again").click()
+    expect(page.get_by_text("The same figures came out, to the last bit.")).to_be_visible()

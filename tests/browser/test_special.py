@@ -1,0 +1,75 @@
+"""What no slider shows, in the browser: a test house's table, a rail of one's own, a catalogue, a study."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import expect
+
+import trackig_core as tig
+from tests.browser.test_dashboard import box, shown, slider
+from tests.browser.test_workshop import open_file, open_tab
+
+pytestmark = pytest.mark.browser
+
+DATA = Path(__file__).parent.parent / "data"
+PAD = (DATA / "measured_stiffness" / "pad_1_to_30_hz.csv").read_bytes()
+CATALOGUE = (DATA / "company_catalogue.toml").read_bytes()
+OPENING = tig.PRESETS["booted-block-low-mass"]
+
+
+def chip(page, label):
+    return page.get_by_role("button", name=f"{label}: measured")
+
+
+def test_a_table_becomes_the_pad_and_the_slider_comes_back(dashboard):
+    open_tab(dashboard, "Track")
+    open_file(dashboard, "Open table", "pad.csv", PAD)
+    expect(dashboard.get_by_text("Bands from 31.5 Hz on rest on extrapolation")).to_be_visible()
+    dashboard.get_by_role("button", name="Use for the pad").click()
+    expect(chip(dashboard, "Pad stiffness")).to_have_text("measured at 3 frequencies, 1 to 30 Hz")
+    expect(slider(dashboard, "Pad stiffness, kN/mm")).to_be_hidden()
+    open_tab(dashboard, "Explore")
+    expect(dashboard.get_by_text("beyond what was measured of this design")).to_be_visible()
+    expect(dashboard.get_by_role("status").filter(has_text="rest on extrapolation").first).to_be_visible()
+    chip(dashboard, "Pad stiffness").click()
+    expect(dashboard.get_by_role("tab", name="Track")).to_have_attribute("aria-selected", "true")
+    expect(dashboard.get_by_role("button", name="Remove from the pad")).to_be_in_viewport()
+    dashboard.get_by_role("button", name="Remove from the pad").click()
+    expect(slider(dashboard, "Pad stiffness, kN/mm")).to_be_visible()
+    assert shown(dashboard, "Pad stiffness, kN/mm") == 100
+
+
+def test_a_study_beyond_the_sliders_opens_and_a_hand_takes_over(dashboard):
+    rail = tig.Rail("worn", 58.0, 6e6)
+    study = tig.Study(OPENING.replace(boot_stiffness=300e6, rail=rail))
+    open_tab(dashboard, "Save & share")
+    open_file(dashboard, "Open study", "odd.toml", study.to_toml().encode())
+    expect(box(dashboard, "Boot stiffness, kN/mm")).to_have_value("300")
+    handle = slider(dashboard, "Boot stiffness, kN/mm")
+    assert handle.evaluate("handle => handle.valueAsNumber >= Number(handle.max) - 1e-6")
+    choice = dashboard.get_by_role("combobox", name="Rail section")
+    expect(choice).to_have_value("own")
+    assert choice.evaluate("each => each.selectedOptions[0].textContent") == "worn: 58 kg/m, 6 MN m²"
+    expect(box(dashboard, "Rail mass, kg/m")).to_have_value("58")
+    choice.select_option("49E1")
+    expect(box(dashboard, "Rail mass, kg/m")).to_be_hidden()
+    dashboard.get_by_role("button", name="Undo").click()
+    expect(box(dashboard, "Rail mass, kg/m")).to_have_value("58")
+    handle.press("ArrowLeft")
+    expect(box(dashboard, "Boot stiffness, kN/mm")).to_have_value("293")
+
+
+def test_a_catalogue_is_chosen_from_and_remembered(dashboard, open_dashboard):
+    open_tab(dashboard, "Track")
+    open_file(dashboard, "Open catalogue", "ours.toml", CATALOGUE)
+    expect(dashboard.get_by_text("this browser remembers it")).to_be_visible()
+    pads = dashboard.get_by_role("combobox", name="Rail pad: from the catalogue")
+    expect(pads.get_by_role("option", name="<b>Soft</b>")).to_have_count(1)
+    pads.select_option("<b>Soft</b>")
+    expect(box(dashboard, "Pad stiffness, kN/mm")).to_have_value("3000")
+    later = open_dashboard()
+    again = later.get_by_role("combobox", name="Rail pad: from the catalogue")
+    expect(again.get_by_role("option", name="<b>Soft</b>")).to_have_count(1)
+    open_tab(later, "Track")
+    later.get_by_role("button", name="Back to the bundled one").click()
+    expect(again.get_by_role("option", name="<b>Soft</b>")).to_have_count(0)
