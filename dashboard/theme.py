@@ -282,7 +282,7 @@ p {{ margin: 0; font-size: 14px; line-height: 1.35; }}
 p.observed {{ font-weight: 500; margin-bottom: 4px; font-variant-numeric: tabular-nums; }}
 p.figure {{ font-size: 38px; font-weight: 700; line-height: 1.2; font-variant-numeric: tabular-nums; }}
 .mains.statics {{ margin-top: 10px; }}
-.figure small {{ font-size: 16px; font-weight: 500; }}
+.figure small {{ display: block; font-size: 14px; font-weight: 500; line-height: 1.2; }}
 .loaded-track .figure {{ color: {LOADED_TRACK}; }}
 .coupled-block .figure {{ color: {COUPLED_BLOCK}; }}
 dl {{ display: grid; grid-template-columns: max-content 1fr; gap: 2px 12px; }}

@@ -117,7 +117,7 @@ class WhatMatters(Asked):
         self.boxes = pn.FlexBox(*self.changes_of.values(), visible=False, margin=(0, 12))
         self.figure = pn.widgets.Select(
             label="Figure",
-            options=["margin"],
+            options={FIGURE_WORDS["margin"][0]: "margin"},
             width=230,
             stylesheets=[theme.SELECT_CSS],
             margin=(0, 12, 0, 0),
@@ -436,6 +436,8 @@ class Map(Asked):
     def settings(self):
         """Return what is asked about the current design."""
         specification = self.assessment.specification
+        if specification is None and self.figure.value == "margin":
+            raise ValueError(NO_SPECIFICATION)
         edges = [] if specification is None else ["margin"]
         if specification is not None and specification.rail_deflection_limit is not None:
             edges.append("deflection")
@@ -714,6 +716,7 @@ class Decide(Tab):
             *(("Map", self.map.build()), ("Search", self.search.build())),
             sizing_mode="stretch_width",
             margin=(0, 8),
+            sx=theme.TABS,
         )
         parts = (
             self.how_far.build(),

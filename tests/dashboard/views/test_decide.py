@@ -73,6 +73,9 @@ def test_without_a_specification_it_says_what_to_do(summary, make_pictures):
     session = Session(summary, make_pictures, None)
     session.do(session.view.look, active=True)
     assert NO_SPECIFICATION in session.view.how_far.sentence.object
+    session.do(session.view.map.ask)
+    assert NO_SPECIFICATION in session.view.map.sentence.object
+    assert session.view.map.inquiry.asked is None
     # what matters can be said all the same
     assert "rail deflection depends most on" in session.view.what_matters.sentence.object
 
