@@ -106,6 +106,7 @@ DOT_SIZE = 9
 FONT = "Roboto, Helvetica, Arial, sans-serif"
 MARKER_LABEL_SIZE = "19px"
 SIDE_VIEW_LABEL_SIZE = "16px"
+CELL_SIZE = "12px"
 
 
 BAND_LABEL_WIDTH = 40

@@ -96,7 +96,7 @@ def test_subjects_are_made_and_put_on_the_page_when_first_looked_at(inputs, outc
     learn.menu.active = 2
     assert isinstance(learn.subject, Resonances)
     assert not lessons.question.looked_at
-    assert [len(place.objects) for place in places] == [1, 0, 1, 0, 0, 0, 0]
+    assert [len(place.objects) for place in places] == [1, 0, 1, 0, 0, 0, 0, 0]
     learn.menu.active = 0
     assert learn.subject is lessons
     learn.look(False)
