@@ -1,4 +1,4 @@
-"""What the simplified model leaves out of a design: the ladder of :mod:`trackig_core.analysis.ladder`, in words.
+"""What the simplified model leaves out: the ladder of :mod:`trackig_core.analysis.ladder`, in words.
 
 As :mod:`dashboard.teaching.explanations`: a function takes a design and choices, all hashable, returns a
 frozen record, and is called off the event loop. dB, Hz.
@@ -70,12 +70,12 @@ REFERENCE_WORDS = (
 
 def _about_above(ladder):
     """Return how far the paper's Figure 1 holds for this design, above its loaded track."""
-    above = tig.BAND_CENTRES > ladder.loaded_track
+    above = ladder.loaded_track < tig.BAND_CENTRES
     vehicle, everything = (np.abs(rung.difference[above]) for rung in ladder.rungs[-2:])
     labels = np.array(tig.BAND_LABELS)[above]
     return (
-        f"Above the loaded track's {frequency_text(ladder.loaded_track)} the paper finds that all this hardly "
-        f"matters. On this track vehicle and axles move a band there by up to {vehicle.max():.1f} dB, at "
+        f"Above the loaded track's {frequency_text(ladder.loaded_track)} the paper finds that all this "
+        f"hardly matters. On this track vehicle and axles move a band there by up to {vehicle.max():.1f} dB, at "
         f"{labels[int(vehicle.argmax())]} Hz; with the ground as well it is {everything.max():.1f} dB, at "
         f"{labels[int(everything.argmax())]} Hz."
     )

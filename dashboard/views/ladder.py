@@ -1,4 +1,4 @@
-"""The subject of the *Learn* tab that puts back what the simplified model leaves out of the current design."""
+"""The subject of the *Learn* tab that puts back what the simplified model leaves out of a design."""
 
 import html
 
@@ -63,7 +63,7 @@ class LeftOut(Subject):
             bokeh_pane(self.differences.model),
             self.table,
             self.words,
-            explanation="put back one thing after the other; below, what each moves from the simplified model, dB",
+            explanation="put back one by one; below, what each moves from the simplified model, dB",
         )
 
 
