@@ -55,6 +55,20 @@ USER_ERRORS = (
 )
 """What is told in one line: the input is at fault, or the place to write to."""
 
+STATICS = (
+    "wheel_load",
+    "wheelbase",
+    "unstated",
+    "rail_deflection",
+    "largest_rail_deflection",
+    "largest_seat_load",
+    "pad_compression",
+    "boot_compression",
+    "largest_uplift",
+    "largest_bending_moment",
+)
+"""What of the static response stands in JSON, in SI."""
+
 DESIGN_FIELDS = [field.name for field in dataclasses.fields(tig.TrackDesign)]
 
 
@@ -148,6 +162,16 @@ def _add_solve(commands):
         help="change a field, in SI units or with a unit, such as boot_stiffness=20kN/mm; may be given again",
     )
     _add_fidelity(command)
+    command.add_argument(
+        "--wheel-load",
+        metavar="LOAD",
+        help="load of a standing wheel [N] or with a unit; the study's, else 85kN",
+    )
+    command.add_argument(
+        "--wheelbase",
+        metavar="DISTANCE",
+        help="distance to a second wheel [m] or with a unit; the study's, else none",
+    )
     command.add_argument("--reference", choices=REFERENCES, help="the study's, else line")
     command.add_argument("--summation", choices=SUMMATIONS, help="the study's, else energy")
     command.add_argument(
@@ -249,33 +273,48 @@ def _solve(options):
         raise CommandError("--csv - --json -: standard output takes one of them")
     for path in outputs:
         _refuse_to_lose(path, options.force, options.track)
-    design, view = _track(options.track)
+    design, view, load = _track(options.track)
+    load = _load(load, options)
     solution = tig.solve(
         design.replace(**dict(map(_change, options.changes))),
         options.fidelity,
         reference=options.reference or view.reference,
         summation=options.summation or view.summation,
     )
+    statics = load.response(solution.design)
     if STANDARD_OUTPUT not in outputs:
-        sys.stdout.write(_solution_text(solution))
+        sys.stdout.write(_solution_text(solution, statics))
     if options.csv is not None:
         _write(options.csv, _solution_csv(solution))
     if options.json is not None:
-        _write(options.json, _solution_json(solution))
+        _write(options.json, _solution_json(solution, statics))
     return 0
 
 
+def _load(load, options):
+    """Return the wheels that stand on the track: a study's, but for what the command line says."""
+    changes = {}
+    for name, text in (("wheel_load", options.wheel_load), ("wheelbase", options.wheelbase)):
+        if text is not None:
+            low, high, unit = RANGES[name]
+            try:
+                changes[name] = read_number(text, unit)
+            except NumberError as error:
+                raise CommandError(f"{error}; {name} is a number from {low:g} to {high:g} {unit}") from None
+    return dataclasses.replace(load, **changes)
+
+
 def _track(name):
-    """Return the design and the view that a preset's name or a study's path stands for."""
+    """Return the design, the view and the standing load that a preset's name or a study's path stands for."""
     if name in tig.PRESETS:
-        return tig.PRESETS[name], tig.View()
+        return tig.PRESETS[name], tig.View(), tig.study.StaticLoad()
     path = Path(name)
     if not path.exists():
         near = difflib.get_close_matches(name, tig.PRESETS, n=1)
         hint = f"did you mean {near[0]}?" if near else f"presets are {', '.join(tig.PRESETS)}"
         raise CommandError(f"{name}: no preset and no file; {hint}")
     opened = _open_study(path)
-    return opened.design, opened.view
+    return opened.design, opened.view, opened.load
 
 
 def _change(text):
@@ -354,7 +393,8 @@ def _check(options):
         )
         deflection = tig.analysis.limited_deflection(opened.specification, pinned.design)
         verdict = opened.specification.check(solution.insertion_gain, deflection)
-        sys.stdout.write(f"{pinned.name}: {verdict}\n")
+        statics = opened.load.response(pinned.design)
+        sys.stdout.write(f"{pinned.name}: {verdict}\n    {_statics_text(statics)}\n")
         complies &= verdict.complies
     return 0 if complies else FAILED
 
@@ -411,7 +451,17 @@ def _write(path, text):
         path.write_text(text, encoding="utf-8", newline="")
 
 
-def _solution_text(solution):
+def _statics_text(statics):
+    """Return deflection and seat load in one line."""
+    words = (
+        f"rail deflection {formats.deflection_text(statics)}, "
+        f"seat load {formats.load_text(statics.largest_seat_load)}, under {formats.wheels_text(statics)}"
+    )
+    reason = formats.unstated_text(statics)
+    return f"{words} ({reason})" if reason else words
+
+
+def _solution_text(solution, statics):
     """Return bands and natural frequencies as lines for the console."""
     gain, natural = solution.gain, solution.natural_frequencies
     lines = [
@@ -426,6 +476,7 @@ def _solution_text(solution):
     lines += ["", f"loaded track    {formats.frequency_text(natural.loaded_track)}"]
     if natural.coupled_block is not None:
         lines.append(f"coupled block   {formats.frequency_text(natural.coupled_block)}")
+    lines.append(_statics_text(statics))
     lines += [f"note: {note}" for note in solution.notes]
     return "\n".join(lines) + "\n"
 
@@ -438,7 +489,7 @@ def _solution_csv(solution):
     return file.getvalue()
 
 
-def _solution_json(solution):
+def _solution_json(solution, statics):
     found = {
         "trackig": tig.__version__,
         "fidelity": solution.fidelity,
@@ -449,6 +500,9 @@ def _solution_json(solution):
         "band_centre_hz": solution.band_centres.tolist(),
         "insertion_gain_db": solution.insertion_gain.tolist(),
         "natural_frequencies_hz": dataclasses.asdict(solution.natural_frequencies),
+        "static_response": {
+            name: getattr(statics, name) for name in STATICS if getattr(statics, name) is not None
+        },
         "notes": list(solution.notes),
     }
     return json.dumps(found, indent=2, ensure_ascii=False) + "\n"

@@ -6,6 +6,8 @@ Sliders, report, comparison table, link, study and lessons read it. The ranges h
 
 from dataclasses import dataclass
 
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD
+
 OPENING_PRESET = "booted-block-low-mass"
 """The preset on which the dashboard opens."""
 
@@ -55,6 +57,10 @@ class Field:
         Whether the slider is: the range spans decades.
     second_stage : bool
         Whether a single-stage track lacks it.
+    default : float or None
+        What it is unless somebody says otherwise [display units]; None: nothing.
+    blank : str
+        What its box says where it may be left empty; empty: it may not.
     """
 
     name: str
@@ -68,6 +74,8 @@ class Field:
     words: str
     logarithmic: bool = False
     second_stage: bool = False
+    default: float | None = None
+    blank: str = ""
 
     @property
     def labelled(self):
@@ -75,12 +83,12 @@ class Field:
         return f"{self.label}, {self.unit}" if self.unit else self.label
 
     def to_si(self, value):
-        """Return a display value in the core's unit."""
-        return six_figures(value * self.factor)
+        """Return a display value in the core's unit; nothing stays nothing."""
+        return None if value is None else six_figures(value * self.factor)
 
     def to_display(self, value):
-        """Return a design's value in the unit that is shown."""
-        return six_figures(value / self.factor)
+        """Return a design's value in the unit that is shown; nothing stays nothing."""
+        return None if value is None else six_figures(value / self.factor)
 
 
 _STIFF = ("kN/mm", NEWTON_PER_METRE)
@@ -90,7 +98,7 @@ FIELDS = {
     for field in (
         Field(
             *("pad_stiffness", "Pad stiffness", *_STIFF, 10, 2000, 1, "Rail pad"),
-            "Dynamic stiffness at 50 Hz between rail and block, or ground where there is none.",
+            "Dynamic stiffness between rail and block, or ground; at 50 Hz unless stated.",
             logarithmic=True,
         ),
         Field(
@@ -104,7 +112,7 @@ FIELDS = {
         ),
         Field(
             *("boot_stiffness", "Boot stiffness", *_STIFF, 2, 200, 0.5, "Block and boot"),
-            "Dynamic stiffness at 50 Hz under the block; the softer, the lower isolation begins.",
+            "Dynamic stiffness under the block, at 50 Hz unless stated; the softer, the lower it isolates.",
             logarithmic=True,
             second_stage=True,
         ),
@@ -128,32 +136,83 @@ FIELDS = {
         ),
     )
 }
-"""Every number of a design by its name, in the order of the load path."""
+"""Every number that each design needs by its name, in the order of the load path."""
 
-CLOSED_GROUPS = ("Advanced",)
+_STATIC_WORDS = (
+    "Stiffness under a slow load, lower than the dynamic one; type 1.4x to give the dynamic over the static. "
+    "Nothing but the rail's deflection depends on it."
+)
+
+EXTRA_FIELDS = {
+    field.name: field
+    for field in (
+        Field(
+            *("stiffness_frequency", "Stiffness stated at", "Hz", 1.0, 1, 200, 1, "Advanced"),
+            "Frequency at which pad and boot have their dynamic stiffness: 50 Hz in the paper, 10 or 20 Hz "
+            "in many test reports.",
+            logarithmic=True,
+            default=50.0,
+        ),
+        Field(
+            *("pad_static_stiffness", "Pad static stiffness", *_STIFF, 4, 2000, 1, "Statics"),
+            _STATIC_WORDS,
+            logarithmic=True,
+            blank="not stated",
+        ),
+        Field(
+            *("boot_static_stiffness", "Boot static stiffness", *_STIFF, 0.8, 200, 0.5, "Statics"),
+            _STATIC_WORDS,
+            logarithmic=True,
+            second_stage=True,
+            blank="not stated",
+        ),
+        Field(
+            *("wheel_load", "Wheel load", "kN", KILONEWTON, 10, 200, 1, "Statics"),
+            "Load of a standing wheel that sinks the rail: half an axle load.",
+            default=DEFAULT_WHEEL_LOAD / KILONEWTON,
+        ),
+        Field(
+            *("wheelbase", "Second wheel at", "m", 1.0, 0.5, 20, 0.1, "Statics"),
+            "Distance to a second wheel, rounded to a third of the fastener spacing; empty: one wheel.",
+            blank="one wheel",
+        ),
+    )
+}
+"""Numbers that may be left as they are, by name: off, they change nothing."""
+
+EVERY_FIELD = FIELDS | EXTRA_FIELDS
+"""Every number that the sidebar sets, by its name."""
+
+CLOSED_GROUPS = ("Advanced", "Statics")
 """Groups of which the sidebar shows no more than the heading until somebody opens them."""
 
 NUMBERS = tuple(FIELDS)
-"""Inputs that are numbers."""
+"""Inputs that are numbers, and that every design needs."""
 
-SECOND_STAGE = tuple(name for name, field in FIELDS.items() if field.second_stage)
+EXTRAS = tuple(EXTRA_FIELDS)
+"""Inputs that are numbers, and that may be left as they are."""
+
+LOAD = ("wheel_load", "wheelbase")
+"""Inputs that are no part of a design: the wheels that stand on it."""
+
+SECOND_STAGE = tuple(name for name, field in EVERY_FIELD.items() if field.second_stage)
 """Inputs that a single-stage track does not have."""
 
 STIFFNESSES = tuple(name for name, field in FIELDS.items() if field.logarithmic)
 """Inputs that span decades."""
 
-PHYSICAL = (*NUMBERS, "two_stage", "rail")
+PHYSICAL = (*NUMBERS, "two_stage", "rail", *(name for name in EXTRAS if name not in LOAD))
 """Inputs that make the design: a change of any asks for a new solution."""
 
-INPUTS = ("preset", *PHYSICAL)
-"""All that a user sets of a design."""
+INPUTS = ("preset", *PHYSICAL, *LOAD)
+"""All that a user sets of a design, and of the wheels that stand on it."""
 
 
 def to_si(name, value):
     """Return an input's display value in the core's unit."""
-    return FIELDS[name].to_si(value)
+    return EVERY_FIELD[name].to_si(value)
 
 
 def to_display(name, value):
     """Return a design's value in the unit that is shown."""
-    return FIELDS[name].to_display(value)
+    return EVERY_FIELD[name].to_display(value)

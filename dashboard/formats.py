@@ -53,6 +53,54 @@ def force_text(force):
     return f"{force:+.3g} kN".replace("-", "−")
 
 
+def deflection_text(statics):
+    """Return the rail deflection of a static response with three figures and its unit.
+
+    Parameters
+    ----------
+    statics : trackig_core.StaticResponse
+        The response; while a static stiffness is not stated, the rail sinks at least so far.
+    """
+    return f"{'at least ' if statics.at_least else ''}{millimetre_text(statics.rail_deflection)}"
+
+
+def millimetre_text(length):
+    """Return a length [m] in mm: three figures, with its unit."""
+    millimetres = 1e3 * length
+    decimals = max(0, 2 - math.floor(math.log10(millimetres))) if millimetres > 0 else 2
+    return f"{millimetres:.{decimals}f} mm"
+
+
+def load_text(load):
+    """Return a load [N] in kN: three figures, with its unit."""
+    return f"{load / 1e3:.3g} kN"
+
+
+def wheels_text(load):
+    """Return which wheels stand on the track, in words.
+
+    Parameters
+    ----------
+    load : trackig_core.study.StaticLoad
+        The wheels.
+    """
+    each = f"{quantity_text(load.wheel_load / 1e3)} kN"
+    if load.wheelbase is None:
+        return f"one wheel of {each}"
+    return f"two wheels of {each}, {quantity_text(load.wheelbase)} m apart"
+
+
+UNSTATED_WORDS = "the static stiffness of {parts} is not stated, so that the dynamic one stands in"
+"""Why the rail sinks at least so far."""
+
+
+def unstated_text(statics):
+    """Return why a static response is a lower bound, in words; empty where it is none."""
+    if not statics.at_least:
+        return ""
+    return UNSTATED_WORDS.format(parts=" and ".join(statics.unstated))
+
+
 def beyond_text(least, greatest, low, high):
     """Return how far a force reaches beyond an axis, in words; empty if it does not.
 

@@ -270,6 +270,8 @@ h3 {{ margin: 0; font-size: 15px; font-weight: 500; }}
 p {{ margin: 0; font-size: 14px; line-height: 1.35; }}
 p.observed {{ font-weight: 500; margin-bottom: 4px; font-variant-numeric: tabular-nums; }}
 p.figure {{ font-size: 38px; font-weight: 700; line-height: 1.2; font-variant-numeric: tabular-nums; }}
+.mains.statics {{ margin-top: 10px; }}
+.figure small {{ font-size: 16px; font-weight: 500; }}
 .loaded-track .figure {{ color: {LOADED_TRACK}; }}
 .coupled-block .figure {{ color: {COUPLED_BLOCK}; }}
 dl {{ display: grid; grid-template-columns: max-content 1fr; gap: 2px 12px; }}
@@ -399,6 +401,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
 .track input:focus-visible::-moz-range-thumb {{
     box-shadow: 0 0 0 8px color-mix(in srgb, var(--accent) 30%, transparent);
 }}
+.quantity.blank .track {{ visibility: hidden; }}
 .stretches {{
     position: absolute; inset: 7px -1px; border: 1px solid {FAILS}; border-radius: 2px;
     background: repeating-linear-gradient(135deg, {FAILS}a0 0 1.5px, var(--panel-background-color) 1.5px 6px);

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 import trackig_core as tig
+from dashboard import formats
 
 SAME_TIME = 1e-9
 """Difference of two times that are the same [s]."""
@@ -36,7 +37,17 @@ def gain_csv(results, heading):
     results = list(results)
     header = ["frequency_hz", *(f"insertion_gain_db {each.name}" for each in results)]
     columns = [tig.BAND_LABELS, *([f"{level:.4f}" for level in each.levels] for each in results)]
-    return _written(heading.lines, header, zip(*columns, strict=True))
+    statics = (static_remark(each) for each in results if each.statics is not None)
+    return _written([*heading.lines, *statics], header, zip(*columns, strict=True))
+
+
+def static_remark(result):
+    """Return how far the rail sinks with a design, in words (DesignResult, which has statics)."""
+    statics = result.statics
+    return (
+        f"rail deflection {formats.deflection_text(statics)}, seat load "
+        f"{formats.load_text(statics.largest_seat_load)} under {formats.wheels_text(statics)}: {result.name}"
+    )
 
 
 def force_csv(results, heading):

@@ -13,7 +13,16 @@ from dataclasses import dataclass
 from urllib.parse import urlencode
 
 import trackig_core as tig
-from dashboard.fields import FIELDS, INPUTS, NUMBERS, OPENING_PRESET, six_figures
+from dashboard.fields import (
+    EVERY_FIELD,
+    EXTRA_FIELDS,
+    EXTRAS,
+    INPUTS,
+    LOAD,
+    NUMBERS,
+    OPENING_PRESET,
+    six_figures,
+)
 from dashboard.formats import name_text, quantity_text
 from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
 from dashboard.session.pins import free_colour, free_name
@@ -33,6 +42,12 @@ SEPARATOR = "~"
 """Stands between the parts of a pin; the name comes last, so that it may hold it."""
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+
+ALWAYS = tuple(name for name in INPUTS if name not in EXTRAS)
+"""Inputs that every link and every pin of one holds; what else there is stands there where it is set."""
+
+EXTRA_SEPARATOR, EXTRA_SIGN = ";", "="
+"""Between the extra numbers of a pin, and between name and number."""
 
 CHOICES = {
     "preset": tuple(DesignInputs.param.preset.objects),
@@ -92,11 +107,18 @@ def encode(values, view=None, pins=(), base=None):
     str
         Letters, digits and signs that an address may hold; some 300 characters, and 100 to 600 a pin.
     """
-    pairs = [("v", VERSION), *((name, _text(values[name])) for name in INPUTS), *(view or {}).items()]
+    pairs = [("v", VERSION), *((name, _text(values[name])) for name in ALWAYS)]
+    pairs += [*_extras(values).items(), *(view or {}).items()]
     pairs += [("pin", _pin_text(pin)) for pin in pins]
     if base is not None:
         pairs.append(("base", str(base + 1)))
     return urlencode(pairs)
+
+
+def _extras(values):
+    """Return the texts of the extra numbers that are set, by name."""
+    given = {name: values.get(name, EXTRA_FIELDS[name].default) for name in EXTRAS}
+    return {name: _text(value) for name, value in given.items() if value != EXTRA_FIELDS[name].default}
 
 
 def _text(value):
@@ -109,8 +131,10 @@ def _pin_text(pin):
     # the format has a place for every input: those that a single-stage track lacks are as its preset opens
     preset = pin.preset or OPENING_PRESET
     values = preset_values(preset) | values_of(pin.design)
-    texts = (_text(values[name]) for name in INPUTS)
-    return SEPARATOR.join((str(pin.colour), str(int(pin.shown)), *texts, pin.name))
+    texts = (_text(values[name]) for name in ALWAYS)
+    extras = (EXTRA_SIGN.join(each) for each in _extras(values).items() if each[0] not in LOAD)
+    shown = EXTRA_SEPARATOR.join((str(int(pin.shown)), *extras))
+    return SEPARATOR.join((str(pin.colour), shown, *texts, pin.name))
 
 
 def decode(arguments, view_choices=VIEW_CHOICES):
@@ -155,8 +179,8 @@ def _key_text(key):
 
 def _label(name):
     """Return what an input or a choice is called on the page, without its unit."""
-    if name in FIELDS:
-        return FIELDS[name].label
+    if name in EVERY_FIELD:
+        return EVERY_FIELD[name].label
     label = DesignInputs.param[name].label if name in INPUTS else name.capitalize()
     return label.split(":")[0]
 
@@ -193,7 +217,7 @@ def _values(given, whose, problems):
     if "two_stage" in read:
         read["two_stage"] = read["two_stage"] == "1"
     values = preset_values(read.get("preset", DesignInputs.param.preset.default)) | read
-    for name in NUMBERS:
+    for name in (*NUMBERS, *EXTRAS):
         if name in given:
             values[name] = _number(name, given[name], values[name], whose, problems)
     return values
@@ -208,9 +232,10 @@ def _is_allowed(name, text, allowed, whose, problems):
 
 def _number(name, text, otherwise, whose, problems):
     """Return a number within its slider's range."""
-    low, high = FIELDS[name].low, FIELDS[name].high
+    low, high = EVERY_FIELD[name].low, EVERY_FIELD[name].high
     if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
-        problems.append(f"{whose}{_label(name)} is no number; {quantity_text(otherwise)} was taken.")
+        taken = "it was ignored" if otherwise is None else f"{quantity_text(otherwise)} was taken"
+        problems.append(f"{whose}{_label(name)} is no number; {taken}.")
         return otherwise
     number = float(text)
     clamped = min(max(number, low), high)
@@ -238,12 +263,15 @@ def _pins(raws, problems):
 
 def _pin(text, before, whose, problems):
     """Return a pin, or None if it cannot be read; its name and colour differ from those before it."""
-    parts = text.split(SEPARATOR, len(INPUTS) + 2)
-    given = dict(zip(INPUTS, parts[2:], strict=False))
-    if len(parts) != len(INPUTS) + 3 or any(given[key] not in allowed for key, allowed in CHOICES.items()):
+    parts = text.split(SEPARATOR, len(ALWAYS) + 2)
+    given = dict(zip(ALWAYS, parts[2:], strict=False))
+    if len(parts) != len(ALWAYS) + 3 or any(given[key] not in allowed for key, allowed in CHOICES.items()):
         problems.append(f"{whose}it cannot be read; it was ignored.")
         return None
-    colour, shown, *_, name = parts
+    colour, settings, *_, name = parts
+    shown, *extras = settings.split(EXTRA_SEPARATOR)
+    extra = dict(each.partition(EXTRA_SIGN)[::2] for each in extras)
+    given |= {key: each for key, each in extra.items() if key in EXTRAS and key not in LOAD}
     taken = {pin.colour for pin in before}
     free = {str(index): index for index in range(MOST_PINNED) if index not in taken}
     values = _values(given, whose, problems)

@@ -10,9 +10,9 @@ words that name the design, the value and what sliders take; and what was saved 
 from dataclasses import dataclass, replace
 
 import trackig_core as tig
-from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
+from dashboard.fields import EXTRAS, LOAD, NUMBERS, OPENING_PRESET, SECOND_STAGE, to_display, to_si
 from dashboard.formats import quantity_text
-from dashboard.session.inputs import DesignInputs, design_of, preset_values, values_of
+from dashboard.session.inputs import DesignInputs, design_of, load_of, preset_values, values_of
 from dashboard.session.pins import current_design, distinct_colours
 from dashboard.theme import MOST_PINNED
 
@@ -88,6 +88,7 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         view=tig.View(**(view or {}), base=base),
         name=name,
         preset=values["preset"],
+        load=load_of(values),
     )
 
 
@@ -116,7 +117,7 @@ def from_study(study):
     _check(current.design, current.name, "design")
     preset = _preset(current)
     return Opened(
-        values=preset_values(preset) | values_of(study.design, preset),
+        values=preset_values(preset) | values_of(study.design, preset) | _load(study.load),
         pins=_pins(study.pinned),
         base=study.view.base,
         view={"summation": study.view.summation, "reference": study.view.reference},
@@ -124,6 +125,14 @@ def from_study(study):
         source=study.source,
         name=study.name,
     )
+
+
+def _load(load):
+    """Return the wheels that stand on the track as inputs, or raise a StudyError."""
+    for name in LOAD:
+        if getattr(load, name) is not None:
+            _check_number(load, name, "the study", "load")
+    return {name: to_display(name, getattr(load, name)) for name in LOAD}
 
 
 def _pins(pinned):
@@ -153,6 +162,9 @@ def _check(design, whose, path):
         raise _refused(whose, path, "rail", f"{design.rail.name!r}, of its own values", known)
     for field in NUMBERS:
         if design.two_stage or field not in SECOND_STAGE:
+            _check_number(design, field, whose, path)
+    for field in EXTRAS:
+        if field not in LOAD and getattr(design, field) is not None:
             _check_number(design, field, whose, path)
 
 

@@ -8,9 +8,8 @@ import numpy as np
 
 import trackig_core as tig
 from dashboard import formats, theme
-from dashboard.fields import FIELDS
 from dashboard.report import plots
-from dashboard.report.html_report import FREQUENCIES, TEMPLATES, hertz_text, input_text
+from dashboard.report.html_report import FREQUENCIES, INPUT_ROWS, TEMPLATES, hertz_text, input_text, is_told
 
 PLOT_HEIGHT = 3.1
 """Height of the plot [inch]."""
@@ -48,6 +47,10 @@ def data_sheet(result, heading, specification=None, source=None):
         frequencies=[
             (name, hertz_text(take(natural))) for name, take in FREQUENCIES if take(natural) is not None
         ],
+        wheels=formats.wheels_text(result.statics),
+        deflection=formats.deflection_text(result.statics),
+        seat=formats.load_text(result.statics.largest_seat_load),
+        bound=formats.unstated_text(result.statics),
         source=source,
         reference=None if reference is None else _level_text(reference),
         level=None if level is None else _level_text(level),
@@ -79,8 +82,9 @@ def _cells(levels, fails):
 
 def _inputs(design):
     """Return rows of (name, unit, text); a single-stage track has no rows for what it lacks."""
-    names = [("rail", "Rail", ""), *((field.name, field.label, field.unit) for field in FIELDS.values())]
-    rows = [(label, unit, input_text(design, name)) for name, label, unit in names]
+    rows = [
+        (label, unit, input_text(design, name)) for name, label, unit in INPUT_ROWS if is_told(design, name)
+    ]
     return [row for row in rows if row[2] != "–"]
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 import trackig_core as tig
 from dashboard import formats, theme
-from dashboard.fields import FIELDS, NEWTON_PER_METRE
+from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, LOAD, NEWTON_PER_METRE
 from dashboard.report import plots
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
 from dashboard.session.results import DesignResult
@@ -85,6 +85,9 @@ def html_report(study, summaries, *, date, version):
         step=next((each.summary.step for each in results if each.summary.step), None),
         inputs=_inputs(results, base),
         frequencies=_frequencies(results),
+        wheels=formats.wheels_text(study.load),
+        statics=_statics(results),
+        bounds=_bounds(results),
         bands=_bands(results, study.specification),
         margins=_margins(results, study.specification),
         sources=_sources(results, base, study.source),
@@ -121,12 +124,12 @@ def _result(study, record, summary):
     deflection = tig.analysis.limited_deflection(limits, record.design)
     verdict = None if limits is None else limits.check(gain.levels, deflection)
     level = None if study.source is None else study.source.with_track(gain.levels)
-    return DesignResult(record, summary, gain, verdict, level)
+    return DesignResult(record, summary, gain, verdict, level, study.load.response(record.design))
 
 
 def _inputs(results, base):
     """Return rows of (name, unit, cells), a cell being (text, whether it differs from the base)."""
-    rows = [("rail", "Rail", ""), *((field.name, field.label, field.unit) for field in FIELDS.values())]
+    rows = [row for row in INPUT_ROWS if any(is_told(each.design, row[0]) for each in results)]
     return [
         (
             label,
@@ -137,6 +140,52 @@ def _inputs(results, base):
             ],
         )
         for name, label, unit in rows
+    ]
+
+
+INPUT_ROWS = (
+    ("rail", "Rail", ""),
+    *((name, field.label, field.unit) for name, field in EVERY_FIELD.items() if name not in LOAD),
+)
+"""Attribute, label and unit of each input of a design."""
+
+
+def is_told(design, name):
+    """Return whether an input of a design is reported: an extra number only where it is set."""
+    if name not in EXTRA_FIELDS:
+        return True
+    field = EXTRA_FIELDS[name]
+    return getattr(design, name) != field.to_si(field.default)
+
+
+STATIC_ROWS = (
+    ("Rail deflection, over a support", formats.deflection_text),
+    (
+        "Rail deflection, at the worst place",
+        lambda statics: formats.millimetre_text(statics.largest_rail_deflection),
+    ),
+    ("Seat load", lambda statics: formats.load_text(statics.largest_seat_load)),
+    ("Compression of the pad", lambda statics: formats.millimetre_text(statics.pad_compression)),
+    (
+        "Compression of the boot",
+        lambda statics: (
+            "–" if statics.boot_compression is None else formats.millimetre_text(statics.boot_compression)
+        ),
+    ),
+    ("Uplift", lambda statics: formats.millimetre_text(statics.largest_uplift)),
+)
+"""Name of each row of the table of statics, and what stands in it."""
+
+
+def _statics(results):
+    """Return rows of (name, cells)."""
+    return [(name, [take(each.statics) for each in results]) for name, take in STATIC_ROWS]
+
+
+def _bounds(results):
+    """Return why deflections are lower bounds, a sentence a design (list of str)."""
+    return [
+        f"{each.name}: {formats.unstated_text(each.statics)}" for each in results if each.statics.at_least
     ]
 
 
@@ -151,7 +200,7 @@ def input_text(design, field):
     if isinstance(value, tig.StiffnessCurve | tig.LossFactorCurve):
         first, last = (formats.quantity_text(value.points[end][0]) for end in (0, -1))
         return f"measured at {len(value.points)} frequencies, {first} to {last} Hz"
-    return formats.quantity_text(FIELDS[field].to_display(value))
+    return formats.quantity_text(EVERY_FIELD[field].to_display(value))
 
 
 def _has_own_loss(design, field):

@@ -10,6 +10,7 @@ import operator
 import param
 
 import trackig_core as tig
+from dashboard.fields import LOAD
 from dashboard.session.pins import current_design, preset_design
 from dashboard.session.results import DesignResult
 
@@ -24,7 +25,7 @@ class Assessment(param.Parameterized):
     Parameters
     ----------
     inputs : DesignInputs
-        The current design, as long as it was never solved.
+        The current design, as long as it was never solved, and the wheels that stand on every design.
     outcome : Outcome
         Solution of the current design, and of the preset from which it departs.
     definition : GainDefinition
@@ -55,7 +56,8 @@ class Assessment(param.Parameterized):
         pins.param.watch(self._assess, ["pinned", "base"])
         pinned.param.watch(self._assess, "summaries")
         self.param.watch(self._assess, ["specification", "source"])
-        self._criteria = None
+        inputs.param.watch(self._assess, list(LOAD))
+        self._criteria, self._load = None, None
         self._assess()
 
     @property
@@ -74,10 +76,11 @@ class Assessment(param.Parameterized):
         return tuple(each for each in self.shown if each.key is not None)
 
     def _assess(self, *_):
-        criteria = (self._definition.reference, self._definition.summation, self.specification, self.source)
+        definition, load = self._definition, self._inputs.to_load()
+        criteria = (definition.reference, definition.summation, self.specification, self.source, load)
         known = {each.key: each for each in self.results} if criteria == self._criteria else {}
         known_preset = self.preset if criteria == self._criteria else None
-        self._criteria = criteria
+        self._criteria, self._load = criteria, load
         results = tuple(
             self._result(record, summary, known.get(record.key)) for record, summary in self._designs()
         )
@@ -116,4 +119,5 @@ class Assessment(param.Parameterized):
                 None if self.specification is None else self.specification.check(gain.levels, deflection)
             ),
             level=None if self.source is None else self.source.with_track(gain.levels),
+            statics=self._load.response(record.design),
         )

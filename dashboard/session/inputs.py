@@ -4,14 +4,18 @@
 insertion gain is shown. Designs in SI units become display values here, and back.
 """
 
+import re
 from numbers import Real
 
 import param
 
 import trackig_core as tig
 from dashboard.fields import (
-    FIELDS,
+    EVERY_FIELD,
+    EXTRA_FIELDS,
+    EXTRAS,
     INPUTS,
+    LOAD,
     NUMBERS,
     OPENING_PRESET,
     PHYSICAL,
@@ -31,7 +35,8 @@ def design_of(values):
     Parameters
     ----------
     values : mapping
-        Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused.
+        Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused, and
+        extra numbers may be missing.
 
     Returns
     -------
@@ -43,10 +48,29 @@ def design_of(values):
     trackig_core.DesignError
         If the values do not make a track.
     """
-    names = [name for name in NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
+    names = [name for name in _DESIGN_NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
+    given = {name: values[name] if name in NUMBERS else _extra(values, name) for name in names}
     return tig.TrackDesign(
-        rail=tig.RAILS[values["rail"]], **{name: to_si(name, values[name]) for name in names}
+        rail=tig.RAILS[values["rail"]], **{name: to_si(name, value) for name, value in given.items()}
     )
+
+
+_DESIGN_NUMBERS = tuple(name for name in EVERY_FIELD if name not in LOAD)
+
+
+def _extra(values, name):
+    return values.get(name, EXTRA_FIELDS[name].default)
+
+
+def load_of(values):
+    """Return the wheels that stand on the track (trackig_core.study.StaticLoad), in SI units.
+
+    Parameters
+    ----------
+    values : mapping
+        Values by name [display units]; those that are missing are as on a fresh page.
+    """
+    return tig.study.StaticLoad(**{name: to_si(name, _extra(values, name)) for name in LOAD})
 
 
 def display_values(design):
@@ -63,11 +87,11 @@ def display_values(design):
         Values for :class:`DesignInputs` [display units].
     """
     rail = next(key for key, rail in tig.RAILS.items() if rail == design.rail)
-    numbers = {name: getattr(design, name) for name in NUMBERS}
+    names = [name for name in _DESIGN_NUMBERS if design.two_stage or name not in SECOND_STAGE]
     return {
         "two_stage": design.two_stage,
         "rail": rail,
-        **{name: to_display(name, value) for name, value in numbers.items() if value is not None},
+        **{name: to_display(name, getattr(design, name)) for name in names},
     }
 
 
@@ -91,13 +115,17 @@ def values_of(design, preset=None):
 
 def _number(name):
     """Return the parameter of a number, as the table of fields describes it."""
-    field = FIELDS[name]
+    field = EVERY_FIELD[name]
+    opening = (
+        field.to_display(getattr(tig.PRESETS[OPENING_PRESET], name)) if name in NUMBERS else field.default
+    )
     return param.Number(
-        default=field.to_display(getattr(tig.PRESETS[OPENING_PRESET], name)),
+        default=opening,
         bounds=(field.low, field.high),
         step=field.step,
         label=field.labelled,
         doc=field.words,
+        allow_None=bool(field.blank),
     )
 
 
@@ -105,7 +133,11 @@ class InputError(ValueError):
     """What a user gave is no value of an input; the message says why, and what is."""
 
 
-def read_input(name, given):
+RATIO = re.compile(r"[x×]\s*(?P<after>.+)|(?P<before>.+?)\s*[x×]", re.IGNORECASE)
+"""How a dynamic over a static stiffness is typed: ``1.4x`` or ``× 1.4``."""
+
+
+def read_input(name, given, dynamic=None):
     """Return the value of an input that a user gave.
 
     Parameters
@@ -114,11 +146,13 @@ def read_input(name, given):
         One of :data:`PHYSICAL`.
     given : object
         A value, or text as it was typed, with or without unit.
+    dynamic : float, optional
+        The dynamic stiffness, where a static one may be given as a part of it [display unit].
 
     Returns
     -------
-    float, bool or str
-        The value [display unit].
+    float, bool, str or None
+        The value [display unit]; None where nothing was given and nothing is allowed.
 
     Raises
     ------
@@ -126,21 +160,32 @@ def read_input(name, given):
         If it is none, or lies beyond the range.
     """
     parameter = DesignInputs.param[name]
-    if name not in FIELDS:
+    if name not in EVERY_FIELD:
         values = parameter.objects if isinstance(parameter, param.Selector) else (True, False)
         if type(given) not in (bool, str) or given not in values:
             raise InputError("choose one of what is offered")
         return given
-    unit, (low, high) = FIELDS[name].unit, parameter.bounds
+    if parameter.allow_None and (given is None or (isinstance(given, str) and not given.strip())):
+        return None
+    unit, (low, high) = EVERY_FIELD[name].unit, parameter.bounds
     takes = f"{quantity_text(low)} to {quantity_text(high)} {unit}".rstrip()
     if isinstance(given, str):
+        ratio = None if dynamic is None else RATIO.fullmatch(given.strip())
         try:
-            given = read_number(given, unit)
+            if ratio is None:
+                given = read_number(given, unit)
+            else:
+                given = _part(dynamic, read_number(ratio["after"] or ratio["before"], ""))
         except NumberError as error:
             raise InputError(f"{error}; this box takes {takes}") from None
     if not isinstance(given, Real) or isinstance(given, bool) or not low <= given <= high:
         raise InputError(f"give {takes}")
     return float(given)
+
+
+def _part(dynamic, ratio):
+    """Return the static stiffness of which a dynamic one is a multiple."""
+    return six_figures(dynamic / ratio) if ratio > 0 else ratio
 
 
 def preset_values(key):
@@ -182,6 +227,11 @@ class DesignInputs(param.Parameterized):
     )
     wheel_mass = _number("wheel_mass")
     contact_stiffness = _number("contact_stiffness")
+    stiffness_frequency = _number("stiffness_frequency")
+    pad_static_stiffness = _number("pad_static_stiffness")
+    boot_static_stiffness = _number("boot_static_stiffness")
+    wheel_load = _number("wheel_load")
+    wheelbase = _number("wheelbase")
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
     refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")
 
@@ -220,7 +270,12 @@ class DesignInputs(param.Parameterized):
     def to_values(self):
         """Return every input that a user sets, by name, float dust taken off: what :meth:`take` takes."""
         values = {name: getattr(self, name) for name in INPUTS}
-        return {**values, **{name: six_figures(values[name]) for name in NUMBERS}}
+        numbers = (name for name in (*NUMBERS, *EXTRAS) if values[name] is not None)
+        return {**values, **{name: six_figures(values[name]) for name in numbers}}
+
+    def to_load(self):
+        """Return the wheels that stand on the track (trackig_core.study.StaticLoad), in SI units."""
+        return load_of(self.to_values())
 
     def take(self, values):
         """Set several inputs as one change, the preset among them without reverting to it.
@@ -254,10 +309,11 @@ class DesignInputs(param.Parameterized):
             Number of the gesture that gave it.
         """
         values, refused = {}, {}
-        for name in PHYSICAL:
+        for name in (*PHYSICAL, *LOAD):
             if name in given:
+                dynamic = name.replace("_static", "") if "_static" in name else None
                 try:
-                    values[name] = read_input(name, given[name])
+                    values[name] = read_input(name, given[name], dynamic and getattr(self, dynamic))
                 except InputError as error:
                     refused[name] = str(error)
         self.gesture = gesture

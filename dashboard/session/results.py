@@ -73,6 +73,8 @@ class DesignResult:
         How it fares against the specification, if there is one.
     level : trackig_core.TrackLevel or None
         What the source becomes with it, if there is one.
+    statics : trackig_core.StaticResponse or None
+        How it carries the standing wheels; None while there is no solution.
     """
 
     pinned: tig.PinnedDesign
@@ -80,6 +82,7 @@ class DesignResult:
     gain: tig.InsertionGain | None = None
     verdict: tig.Verdict | None = None
     level: tig.TrackLevel | None = None
+    statics: tig.StaticResponse | None = None
 
     @property
     def key(self):

@@ -415,8 +415,8 @@ def lumped_vs_beam(design, reference, summation):
             f"{frequency_text(tig.cut_on(design)[0])} on this track, "
             f"{'two masses on springs describe' if design.two_stage else 'one mass on a spring describes'} "
             "it well; above it vibration travels along the rail, and the lumped model has no rail.",
-            "It is the last rung of the ladder in “What was left out”, where vehicle, axles and ground are put "
-            "back too.",
+            "It is the last rung of the ladder in “What was left out”, where vehicle, axles and ground are "
+            "put back too.",
         ),
     )
 

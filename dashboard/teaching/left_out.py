@@ -75,7 +75,7 @@ def _about_above(ladder):
     labels = np.array(tig.BAND_LABELS)[above]
     return (
         f"Above the loaded track's {frequency_text(ladder.loaded_track)} the paper finds that all this "
-        f"hardly matters. On this track vehicle and axles move a band there by up to {vehicle.max():.1f} dB, at "
-        f"{labels[int(vehicle.argmax())]} Hz; with the ground as well it is {everything.max():.1f} dB, at "
+        f"hardly matters. On this track vehicle and axles move a band there by up to {vehicle.max():.1f} dB, "
+        f"at {labels[int(vehicle.argmax())]} Hz; with the ground as well it is {everything.max():.1f} dB, at "
         f"{labels[int(everything.argmax())]} Hz."
     )

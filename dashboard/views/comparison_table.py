@@ -7,7 +7,7 @@ import html
 
 import trackig_core as tig
 from dashboard import formats
-from dashboard.fields import FIELDS, six_figures
+from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, EXTRAS, LOAD, six_figures
 from dashboard.figures.swatches import swatch_svg
 from dashboard.session.inputs import DesignInputs, display_values
 
@@ -35,6 +35,7 @@ def table_html(results, base, bands):
     groups = (
         ("Parameters", _parameter_rows(results, base)),
         ("Natural frequencies, Hz", _frequency_rows(results, base)),
+        (_static_title(results), _static_rows(results, base)),
         ("Insertion gain, dB", _band_rows(results, base, bands)),
     )
     body = "".join(_group(title, rows, len(results)) for title, rows in groups)
@@ -69,12 +70,21 @@ def _parameter_rows(results, base):
     every = [display_values(each.design) for each in results]
     own = display_values(base.design)
     yield "Stages", [("two" if values["two_stage"] else "one", "") for values in every]
-    for name, field in FIELDS.items():
+    for name, field in EVERY_FIELD.items():
+        if name in LOAD or not _is_told(name, every):
+            continue
         yield (
             field.labelled,
             [_parameter_cell(values.get(name), own.get(name)) for values in every],
         )
     yield DesignInputs.param.rail.label, [(values["rail"], "") for values in every]
+
+
+def _is_told(name, every):
+    """Return whether a row says anything: an extra number only where a design has one."""
+    return name not in EXTRAS or any(
+        values.get(name) not in (None, EXTRA_FIELDS[name].default) for values in every
+    )
 
 
 def _parameter_cell(value, base):
@@ -99,6 +109,36 @@ def _frequency_rows(results, base):
 def _frequency(result, name):
     """Return a natural frequency [Hz], or None where there is no solution or no such frequency."""
     return None if result.summary is None else getattr(result.summary.solution.natural_frequencies, name)
+
+
+def _static_title(results):
+    statics = next((each.statics for each in results if each.statics is not None), None)
+    return "Standing load" if statics is None else f"Under {formats.wheels_text(statics)}"
+
+
+def _static_rows(results, base):
+    """Yield deflection [mm] and seat load [kN]; "≥" where a static stiffness is not stated."""
+    for label, name, factor in STATIC_ROWS:
+        own = None if base.statics is None else getattr(base.statics, name) * factor
+        cells = []
+        for each in results:
+            if each.statics is None:
+                cells.append((NONE, ""))
+                continue
+            value = getattr(each.statics, name) * factor
+            bound = "≥ " if each.statics.at_least and name.endswith("deflection") else ""
+            differs = own is not None and each is not base
+            difference = f"{value - own:+.2f}".replace("-", "−") if differs else ""
+            cells.append((f"{bound}{value:.2f}", difference))
+        yield label, cells
+
+
+STATIC_ROWS = (
+    ("Rail deflection, mm", "rail_deflection", 1e3),
+    ("at the worst place, mm", "largest_rail_deflection", 1e3),
+    ("Seat load, kN", "largest_seat_load", 1e-3),
+)
+"""Label of each row of the statics, its attribute, and what one SI unit is in the unit shown."""
 
 
 def _band_rows(results, base, bands):

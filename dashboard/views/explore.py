@@ -1,6 +1,6 @@
-"""The tab in which a track is explored: insertion gain, force over time, natural frequencies.
+"""The tab in which a track is explored: insertion gain, force over time, natural frequencies, standing load.
 
-All three are redrawn together, from the same solution.
+All are redrawn together, from the same solution.
 """
 
 import panel as pn
@@ -41,7 +41,7 @@ class Explore(Tab):
         self._drawn = None
         self.insertion_gain = InsertionGainFigure()
         self.force = ForceFigure()
-        self.frequencies = Frequencies(outcome)
+        self.frequencies = Frequencies(outcome, assessment)
         self.verdict = ShortVerdict(assessment)
         self.panes = [bokeh_pane(each.layout) for each in (self.insertion_gain, self.force)]
         self.fidelity = pmui.Chip(
@@ -151,7 +151,7 @@ class Explore(Tab):
         yield
         gain.append(gain_pane)
         yield
-        frequencies.objects = [caption("Natural frequencies", ""), self.frequencies]
+        frequencies.objects = [caption("Natural frequencies and standing load", ""), self.frequencies]
         force.objects = [caption(FORCE_TITLE, FORCE_WORDS), force_pane]
         yield
 

@@ -1,4 +1,4 @@
-"""Natural frequencies as large figures, each with a sentence on what it is.
+"""Natural frequencies and statics as large figures, each with a sentence on what it is.
 
 A frequency is never shown without saying of what.
 """
@@ -37,15 +37,20 @@ class Frequencies(Viewer):
     ----------
     outcome : Outcome
         Whose picture is shown.
+    assessment : Assessment, optional
+        Whose statics of the current design are shown, too.
     """
 
-    def __init__(self, outcome):
+    def __init__(self, outcome, assessment=None):
         super().__init__()
-        self._outcome, self._in_sight = outcome, True
+        self._outcome, self._assessment, self._in_sight = outcome, assessment, True
         self.pane = pn.pane.HTML(
             "", sizing_mode="stretch_width", stylesheets=[theme.FREQUENCIES_CSS], margin=0
         )
-        outcome.param.watch(self._show, "summary")
+        if assessment is None:
+            outcome.param.watch(self._show, "summary")
+        else:  # which follows the outcome, and the wheels that stand on the track
+            assessment.param.watch(self._show, "results")
         self._show()
 
     def look(self, in_sight):
@@ -57,7 +62,10 @@ class Frequencies(Viewer):
         if not self._in_sight:
             return
         summary = self._outcome.summary
-        self.pane.object = "" if summary is None else frequencies_html(summary.solution.natural_frequencies)
+        statics = None if self._assessment is None else self._assessment.current.statics
+        self.pane.object = (
+            "" if summary is None else frequencies_html(summary.solution.natural_frequencies, statics)
+        )
 
     def __panel__(self):
         """Return what is put on the page."""
@@ -87,8 +95,16 @@ def explanations(natural):
     return [(formats.frequency_text(frequency), words) for frequency, words in pairs]
 
 
-def frequencies_html(natural):
-    """Return the natural frequencies as HTML, made of numbers and of this module's own words."""
+def frequencies_html(natural, statics=None):
+    """Return the natural frequencies as HTML, made of numbers and of this module's own words.
+
+    Parameters
+    ----------
+    natural : trackig_core.NaturalFrequencies
+        Natural frequencies of a design [Hz].
+    statics : trackig_core.StaticResponse, optional
+        How it carries standing wheels.
+    """
     block = natural.coupled_block
     cards = (
         ("loaded-track", natural.loaded_track, natural.observed_loaded_track, *LOADED_TRACK),
@@ -102,7 +118,35 @@ def frequencies_html(natural):
     )
     mains = "".join(_card(*card) for card in cards)
     rows = "".join(f"<dt>{figure}</dt><dd>{words}</dd>" for figure, words in explanations(natural))
-    return f'<div class="mains">{mains}</div><dl>{rows}</dl>'
+    below = "" if statics is None else f'<div class="mains statics">{statics_html(statics)}</div>'
+    return f'<div class="mains">{mains}</div>{below}<dl>{rows}</dl>'
+
+
+def statics_html(statics):
+    """Return rail deflection and seat load as HTML, and why they are bounds if they are."""
+    load = formats.load_text(statics.wheel_load)
+    wheel = f"a wheel of {load}" if statics.wheelbase is None else f"the first of two wheels of {load}"
+    reason = formats.unstated_text(statics)
+    sinks = f"The rail sinks so far under {wheel}, over a support."
+    if reason:
+        sinks += f" At least: {reason}. Under Statics in the sidebar it can be stated."
+    worst = formats.millimetre_text(statics.largest_rail_deflection)
+    seat = (
+        f"The most that a support carries: {statics.seat_load_share:.0%} of a wheel's load. Between supports "
+        f"the rail sinks {'at least ' if reason else ''}{worst} at the worst place."
+    )
+    figures = (
+        ("rail-deflection", "Rail deflection", formats.millimetre_text(statics.rail_deflection), sinks),
+        ("seat-load", "Seat load", formats.load_text(statics.largest_seat_load), seat),
+    )
+    bound = {"rail-deflection": "at least", "seat-load": "about"} if reason else {}
+    return "".join(_figure(key, name, bound.get(key, ""), *rest) for key, name, *rest in figures)
+
+
+def _figure(key, name, before, figure, words):
+    """Return one static figure: large, what bounds it in small letters before it, then what it is."""
+    small = f"<small>{before}</small> " if before else ""
+    return f'<section class="main {key}"><h3>{name}</h3><p class="figure">{small}{figure}</p><p>{words}</p></section>'
 
 
 def _card(key, computed, observed, name, words):

@@ -8,7 +8,7 @@ nothing else.
 from panel.viewable import Viewer
 
 from dashboard.client.quantities import Quantities
-from dashboard.fields import CLOSED_GROUPS, FIELDS, INPUTS, NUMBERS, SECOND_STAGE
+from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, INPUTS, NUMBERS, SECOND_STAGE
 from dashboard.session.inputs import display_values
 
 FIRST_ROWS = {"Block and boot": ("two_stage",)}
@@ -93,16 +93,16 @@ def groups(inputs):
     """
     track = [_choice(inputs, "preset", replaces=True), {"kind": "departure", "label": "Back to Table 1"}]
     found = [{"title": "", "closed": False, "fields": track}]
-    for title in dict.fromkeys(field.group for field in FIELDS.values()):
+    for title in dict.fromkeys(field.group for field in EVERY_FIELD.values()):
         rows = [_other(inputs, name) for name in FIRST_ROWS.get(title, ())]
-        rows += [_number(field) for field in FIELDS.values() if field.group == title]
+        rows += [_number(field) for field in EVERY_FIELD.values() if field.group == title]
         rows += [_other(inputs, name) for name in LAST_ROWS.get(title, ())]
         found.append({"title": title, "closed": title in CLOSED_GROUPS, "fields": rows})
     return found
 
 
 def _number(field):
-    shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words")
+    shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words", "blank")
     return {"kind": "number", **{name: getattr(field, name) for name in shown}}
 
 

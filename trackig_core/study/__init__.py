@@ -1,7 +1,16 @@
 """Studies: designs with names and looks, a specification and a source, as objects and as one TOML file."""
 
 from trackig_core.study.catalogue import Catalogue, Component, bundled_catalogue
-from trackig_core.study.records import PinnedDesign, StudyError, View
+from trackig_core.study.records import PinnedDesign, StaticLoad, StudyError, View
 from trackig_core.study.studies import Study
 
-__all__ = ["Catalogue", "Component", "PinnedDesign", "Study", "StudyError", "View", "bundled_catalogue"]
+__all__ = [
+    "Catalogue",
+    "Component",
+    "PinnedDesign",
+    "StaticLoad",
+    "Study",
+    "StudyError",
+    "View",
+    "bundled_catalogue",
+]

@@ -2,10 +2,12 @@
 
 from dataclasses import dataclass, field
 
+from trackig_core.analysis.statics import StaticResponse, static_response
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
 from trackig_core.names import allowed, brief, is_name
 from trackig_core.track.catalogue import PRESETS
 from trackig_core.track.design import TrackDesign
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, DesignError, check_number
 
 
 class StudyError(ValueError):
@@ -59,6 +61,42 @@ class View:
                 raise StudyError(f"{brief(value)}: give {' or '.join(map(repr, choices))}", f"view.{name}")
         if self.base is not None:
             check_count(self.base, "view.base")
+
+
+@dataclass(frozen=True)
+class StaticLoad:
+    """The wheels that stand on every design of a study.
+
+    Parameters
+    ----------
+    wheel_load : float
+        Load of each wheel [N].
+    wheelbase : float or None
+        Distance to a second wheel [m]; None: there is one wheel.
+
+    Raises
+    ------
+    StudyError
+        If a value is no number within its range.
+    """
+
+    wheel_load: float = DEFAULT_WHEEL_LOAD
+    wheelbase: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check every value once."""
+        for name in ("wheel_load", "wheelbase"):
+            value = getattr(self, name)
+            if name == "wheelbase" and value is None:
+                continue
+            try:
+                object.__setattr__(self, name, check_number(name, value))
+            except DesignError as error:
+                raise StudyError(f"{brief(value)}: give {error.allowed}", f"load.{name}") from None
+
+    def response(self, design: TrackDesign) -> StaticResponse:
+        """Return how a design carries the wheels (StaticResponse)."""
+        return static_response(design, self.wheel_load, self.wheelbase)
 
 
 @dataclass(frozen=True)

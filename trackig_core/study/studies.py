@@ -8,7 +8,7 @@ from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 from trackig_core.study import toml_format
-from trackig_core.study.records import PinnedDesign, StudyError, View, check_kind, check_preset
+from trackig_core.study.records import PinnedDesign, StaticLoad, StudyError, View, check_kind, check_preset
 from trackig_core.track.design import TrackDesign
 
 MOST_BYTES = toml_format.MOST_BYTES
@@ -42,6 +42,8 @@ class Study:
         Questions that were asked about designs, and what came out.
     measured : iterable of MeasuredGain
         Up to four curves from elsewhere, beside those computed.
+    load : StaticLoad
+        The wheels that stand on every design.
 
     Raises
     ------
@@ -58,6 +60,7 @@ class Study:
     preset: str | None = None
     answers: tuple[Answer, ...] = ()
     measured: tuple[MeasuredGain, ...] = ()
+    load: StaticLoad = field(default_factory=StaticLoad)
 
     def __post_init__(self) -> None:
         """Check every value once."""
@@ -66,6 +69,7 @@ class Study:
         object.__setattr__(self, "pinned", tuple(self.pinned))
         check_kind(self.design, TrackDesign, "design")
         check_kind(self.view, View, "view")
+        check_kind(self.load, StaticLoad, "load")
         for number, pinned in enumerate(self.pinned):
             check_kind(pinned, PinnedDesign, f"pinned[{number}]")
             if pinned.colour is None:

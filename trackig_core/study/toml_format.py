@@ -26,7 +26,7 @@ from trackig_core.levels.measured_gain import MeasuredGain
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
-from trackig_core.study.records import PinnedDesign, StudyError, View
+from trackig_core.study.records import PinnedDesign, StaticLoad, StudyError, View
 from trackig_core.track.design import ONE_AXLE, REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.fields import (
     AXLE_FIELDS,
@@ -35,6 +35,7 @@ from trackig_core.track.fields import (
     RAIL_FIELDS,
     STATIC_FIELDS,
     SUSPENSION_FIELDS,
+    WHEELBASE,
     DesignError,
 )
 from trackig_core.track.ground import Ground
@@ -86,6 +87,11 @@ _PARTS: dict[str, tuple[type[Suspension] | type[Ground], dict[str, str]]] = {
 
 _LIMIT_KEYS = {each.name: each.key for each in STATIC_FIELDS}
 """Key of the limit of rail deflection, and of the load under which it holds."""
+
+_LOAD_KEYS = {name: each for name, each in _LIMIT_KEYS.items() if name == "wheel_load"} | {
+    WHEELBASE.name: WHEELBASE.key
+}
+"""Key of each number of the wheels that stand on the track."""
 
 _CURVES: dict[str, tuple[str, type[StiffnessCurve] | type[LossFactorCurve]]] = {
     "pad_stiffness": ("pad_stiffness_measured", StiffnessCurve),
@@ -212,6 +218,7 @@ def read(data: str | bytes) -> dict[str, Any]:
         "preset": section.take("preset"),
         "design": _design(section.section("design")),
         "view": view,
+        "load": _load(_Section(section.take("load", {}), "load")),
         "measured": _measured(section),
         "pinned": [_pinned(_Section(each, f"pinned[{number}]")) for number, each in enumerate(pinned)],
         "answers": _answers(section),
@@ -236,6 +243,15 @@ def _view(section: _Section) -> View:
     view = View(**{each.name: section.take(each.name, each.default) for each in fields(View)})
     section.close()
     return view
+
+
+def _load(section: _Section) -> StaticLoad:
+    given = {name: section.take(key) for name, key in _LOAD_KEYS.items()}
+    section.close()
+    try:
+        return StaticLoad(**{name: value for name, value in given.items() if value is not None})
+    except StudyError as error:
+        raise StudyError(error.message, section.under(_LOAD_KEYS[error.path.rpartition(".")[2]])) from None
 
 
 def _pinned(section: _Section) -> PinnedDesign:
@@ -390,6 +406,8 @@ def written(study: Study) -> str:
     if study.preset is not None:
         document.add("preset", study.preset)
     document.add("view", _written_view(study.view))
+    if study.load != StaticLoad():
+        document.add("load", _written_load(study.load))
     document.add("design", _written_design(study.design))
     for name, (_, key) in _TABLES.items():
         if getattr(study, name) is not None:
@@ -417,6 +435,14 @@ def _written_view(view: View) -> Table:
     for each in fields(View):
         if getattr(view, each.name) is not None:
             table.add(each.name, getattr(view, each.name))
+    return table
+
+
+def _written_load(load: StaticLoad) -> Table:
+    table = tomlkit.table()
+    for name, key in _LOAD_KEYS.items():
+        if getattr(load, name) is not None:
+            table.add(key, _number(getattr(load, name)))
     return table
 
 

@@ -61,6 +61,9 @@ STATIC_FIELDS = (
 )
 """Numbers of a standing wheel, and of what it may sink."""
 
+WHEELBASE = Field("wheelbase", "m", 0.5, 100.0, "wheelbase_m")
+"""Distance of a second standing wheel."""
+
 DEFAULT_WHEEL_LOAD = 85e3
 """Static load of a wheel where none is given [N]: half an axle load of 17 t."""
 
@@ -100,6 +103,7 @@ RANGES = {
         *RAIL_FIELDS,
         *DESIGN_FIELDS,
         *STATIC_FIELDS,
+        WHEELBASE,
         *SUSPENSION_FIELDS,
         *GROUND_FIELDS,
         *AXLE_FIELDS,

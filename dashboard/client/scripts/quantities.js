@@ -138,6 +138,7 @@ class Quantity {
     this.box = element("input", {
       type: "text", inputMode: "decimal", maxLength: 40, autocomplete: "off", spellcheck: false,
       "aria-label": `${field.labelled}: type a number`, "aria-describedby": `advice-${field.name}`,
+      placeholder: field.blank,
     })
     this.fill = element("div", {className: "fill"})
     this.mark = element("div", {className: "mark", hidden: true})
@@ -191,14 +192,14 @@ class Quantity {
     this.box.addEventListener("keydown", (event) => {
       if (event.key === "Enter") this.commit()
       else if (event.key === "Escape") {
-        this.box.value = numberText(this.value)
+        this.box.value = this.text()
         this.commit()
       } else if (UPRIGHT_KEYS.includes(event.key)) this.press(event, KEYS, {})
     })
   }
 
   press(event, steps, ends) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return
+    if (event.ctrlKey || event.metaKey || event.altKey || this.value === null) return
     if (event.key in ends || event.key in steps) this.flow.press()
     const many = event.shiftKey && event.key.startsWith("Arrow") ? 10 : 1
     if (event.key in ends) this.set(ends[event.key])
@@ -239,15 +240,22 @@ class Quantity {
     this.flow.send()
   }
 
-  take(value, text = numberText(value)) {
+  // What may be left empty has no value then, and no slider.
+  text() {
+    return this.value === null ? "" : numberText(this.value)
+  }
+
+  take(value, text = undefined) {
     this.value = value
-    this.box.value = this.committed = text
-    this.slider.setAttribute("aria-valuetext", numberText(value))
-    this.fill.style.width = `${100 * this.scale.share(value)}%`
+    this.box.value = this.committed = text ?? this.text()
+    this.slider.setAttribute("aria-valuetext", this.text())
+    if (value !== null) this.fill.style.width = `${100 * this.scale.share(value)}%`
     this.refuse("")
   }
 
   place(value) {
+    this.root.classList.toggle("blank", value === null)
+    if (value === null) return
     const scale = this.own.reaching(value)
     if (scale !== this.scale) {
       this.scale = scale
@@ -293,7 +301,7 @@ class Quantity {
   draw() {
     this.mark.hidden = this.preset === undefined
     if (this.preset !== undefined) this.mark.style.left = `${100 * this.scale.share(this.preset)}%`
-    this.fill.style.width = `${100 * this.scale.share(this.value)}%`
+    if (this.value !== null) this.fill.style.width = `${100 * this.scale.share(this.value)}%`
     this.stretch.hidden = this.edges.hidden = this.stretches === undefined
     this.stretch.replaceChildren(...(this.stretches ?? []).map(([low, high]) => this.stretchOf(low, high)))
     this.drawEdges()
