@@ -17,6 +17,9 @@ NEWTON_PER_METRE = 1e6
 KILONEWTON = 1e3
 """One kN in N."""
 
+KILOMETRE_PER_HOUR = 1 / 3.6
+"""One km/h in m/s."""
+
 PRESET_LABELS = {
     "slab-track": "Slab track",
     "booted-sleeper": "Booted sleeper",
@@ -61,6 +64,8 @@ class Field:
         What it is unless somebody says otherwise [display units]; None: nothing.
     blank : str
         What its box says where it may be left empty; empty: it may not.
+    figures : int
+        Figures of the core's value [-]: more where the units are no power of ten apart.
     """
 
     name: str
@@ -76,6 +81,7 @@ class Field:
     second_stage: bool = False
     default: float | None = None
     blank: str = ""
+    figures: int = 6
 
     @property
     def labelled(self):
@@ -84,7 +90,7 @@ class Field:
 
     def to_si(self, value):
         """Return a display value in the core's unit; nothing stays nothing."""
-        return None if value is None else six_figures(value * self.factor)
+        return None if value is None else float(f"{value * self.factor:.{self.figures}g}")
 
     def to_display(self, value):
         """Return a design's value in the unit that is shown; nothing stays nothing."""
@@ -138,6 +144,9 @@ FIELDS = {
 }
 """Every number that each design needs by its name, in the order of the load path."""
 
+SUSPENDED, GROUND = "Suspension and axles", "Ground"
+"""Groups of what the simplified model leaves out."""
+
 _STATIC_WORDS = (
     "Stiffness under a slow load, lower than the dynamic one; type 1.4x to give the dynamic over the static. "
     "Nothing but the rail's deflection depends on it."
@@ -152,6 +161,12 @@ EXTRA_FIELDS = {
             "in many test reports.",
             logarithmic=True,
             default=50.0,
+        ),
+        Field(
+            *("speed", "Speed", "km/h", KILOMETRE_PER_HOUR, 20, 360, 5, SUSPENDED),
+            "At which all wheels pass the same roughness, one after the other; empty: each has its own.",
+            blank="independent roughness",
+            figures=12,
         ),
         Field(
             *("pad_static_stiffness", "Pad static stiffness", *_STIFF, 4, 2000, 1, "Statics"),
@@ -183,7 +198,7 @@ EXTRA_FIELDS = {
 EVERY_FIELD = FIELDS | EXTRA_FIELDS
 """Every number that the sidebar sets, by its name."""
 
-CLOSED_GROUPS = ("Advanced", "Statics")
+CLOSED_GROUPS = ("Advanced", SUSPENDED, "Statics", GROUND)
 """Groups of which the sidebar shows no more than the heading until somebody opens them."""
 
 NUMBERS = tuple(FIELDS)
@@ -201,7 +216,10 @@ SECOND_STAGE = tuple(name for name, field in EVERY_FIELD.items() if field.second
 STIFFNESSES = tuple(name for name, field in FIELDS.items() if field.logarithmic)
 """Inputs that span decades."""
 
-PHYSICAL = (*NUMBERS, "two_stage", "rail", *(name for name in EXTRAS if name not in LOAD))
+SURROUNDINGS = ("suspension", "axle_positions", "ground")
+"""Inputs that are off in the simplified model, in SI units, chosen from the catalogue or a study's own."""
+
+PHYSICAL = (*NUMBERS, "two_stage", "rail", *(name for name in EXTRAS if name not in LOAD), *SURROUNDINGS)
 """Inputs that make the design: a change of any asks for a new solution."""
 
 INPUTS = ("preset", *PHYSICAL, *LOAD)

@@ -21,9 +21,11 @@ from dashboard.fields import (
     LOAD,
     NUMBERS,
     OPENING_PRESET,
+    SURROUNDINGS,
     six_figures,
 )
 from dashboard.formats import name_text, quantity_text
+from dashboard.session import surroundings
 from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
 from dashboard.session.pins import free_colour, free_name
 from dashboard.theme import MOST_PINNED
@@ -43,11 +45,14 @@ SEPARATOR = "~"
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 
-ALWAYS = tuple(name for name in INPUTS if name not in EXTRAS)
+OPTIONAL = (*EXTRAS, *SURROUNDINGS)
+"""Inputs that a link holds where they are set."""
+
+ALWAYS = tuple(name for name in INPUTS if name not in OPTIONAL)
 """Inputs that every link and every pin of one holds; what else there is stands there where it is set."""
 
 EXTRA_SEPARATOR, EXTRA_SIGN = ";", "="
-"""Between the extra numbers of a pin, and between name and number."""
+"""Between the optional inputs of a pin, and between name and value."""
 
 CHOICES = {
     "preset": tuple(DesignInputs.param.preset.objects),
@@ -108,17 +113,20 @@ def encode(values, view=None, pins=(), base=None):
         Letters, digits and signs that an address may hold; some 300 characters, and 100 to 600 a pin.
     """
     pairs = [("v", VERSION), *((name, _text(values[name])) for name in ALWAYS)]
-    pairs += [*_extras(values).items(), *(view or {}).items()]
+    pairs += [*_optional(values).items(), *(view or {}).items()]
     pairs += [("pin", _pin_text(pin)) for pin in pins]
     if base is not None:
         pairs.append(("base", str(base + 1)))
     return urlencode(pairs)
 
 
-def _extras(values):
-    """Return the texts of the extra numbers that are set, by name."""
+def _optional(values):
+    """Return the texts of the optional inputs that are set, by name."""
     given = {name: values.get(name, EXTRA_FIELDS[name].default) for name in EXTRAS}
-    return {name: _text(value) for name, value in given.items() if value != EXTRA_FIELDS[name].default}
+    numbers = {name: _text(value) for name, value in given.items() if value != EXTRA_FIELDS[name].default}
+    around = surroundings.OFF | {name: values[name] for name in SURROUNDINGS if name in values}
+    on = [name for name in SURROUNDINGS if around[name] != surroundings.OFF[name]]
+    return {**numbers, **{name: surroundings.written(name, around) for name in on}}
 
 
 def _text(value):
@@ -132,7 +140,7 @@ def _pin_text(pin):
     preset = pin.preset or OPENING_PRESET
     values = preset_values(preset) | values_of(pin.design)
     texts = (_text(values[name]) for name in ALWAYS)
-    extras = (EXTRA_SIGN.join(each) for each in _extras(values).items() if each[0] not in LOAD)
+    extras = (EXTRA_SIGN.join(each) for each in _optional(values).items() if each[0] not in LOAD)
     shown = EXTRA_SEPARATOR.join((str(int(pin.shown)), *extras))
     return SEPARATOR.join((str(pin.colour), shown, *texts, pin.name))
 
@@ -220,7 +228,22 @@ def _values(given, whose, problems):
     for name in (*NUMBERS, *EXTRAS):
         if name in given:
             values[name] = _number(name, given[name], values[name], whose, problems)
-    return values
+    return values | _surroundings(given, values, whose, problems)
+
+
+def _surroundings(given, values, whose, problems):
+    """Return vehicle, axles and ground, as far as they can be read and go with all else."""
+    found = dict(surroundings.OFF)
+    for name in SURROUNDINGS:
+        if name in given:
+            try:
+                read = {name: surroundings.read(name, given[name])}
+                design_of(values | found | read)
+            except ValueError:
+                problems.append(f"{whose}{_label(name)} cannot be read; it was ignored.")
+            else:
+                found |= read
+    return found
 
 
 def _is_allowed(name, text, allowed, whose, problems):
@@ -271,7 +294,7 @@ def _pin(text, before, whose, problems):
     colour, settings, *_, name = parts
     shown, *extras = settings.split(EXTRA_SEPARATOR)
     extra = dict(each.partition(EXTRA_SIGN)[::2] for each in extras)
-    given |= {key: each for key, each in extra.items() if key in EXTRAS and key not in LOAD}
+    given |= {key: each for key, each in extra.items() if key in OPTIONAL and key not in LOAD}
     taken = {pin.colour for pin in before}
     free = {str(index): index for index in range(MOST_PINNED) if index not in taken}
     values = _values(given, whose, problems)

@@ -21,11 +21,14 @@ from dashboard.fields import (
     PHYSICAL,
     PRESET_LABELS,
     SECOND_STAGE,
+    SURROUNDINGS,
     six_figures,
     to_display,
     to_si,
 )
 from dashboard.formats import quantity_text
+from dashboard.session import surroundings
+from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.typed_numbers import NumberError, read_number
 
 
@@ -36,7 +39,7 @@ def design_of(values):
     ----------
     values : mapping
         Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused, and
-        extra numbers may be missing.
+        extra numbers and surroundings may be missing.
 
     Returns
     -------
@@ -51,7 +54,9 @@ def design_of(values):
     names = [name for name in _DESIGN_NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
     given = {name: values[name] if name in NUMBERS else _extra(values, name) for name in names}
     return tig.TrackDesign(
-        rail=tig.RAILS[values["rail"]], **{name: to_si(name, value) for name, value in given.items()}
+        rail=tig.RAILS[values["rail"]],
+        **{name: to_si(name, value) for name, value in given.items()},
+        **{name: values[name] for name in SURROUNDINGS if name in values},
     )
 
 
@@ -92,6 +97,7 @@ def display_values(design):
         "two_stage": design.two_stage,
         "rail": rail,
         **{name: to_display(name, getattr(design, name)) for name in names},
+        **{name: getattr(design, name) for name in SURROUNDINGS},
     }
 
 
@@ -232,6 +238,16 @@ class DesignInputs(param.Parameterized):
     boot_static_stiffness = _number("boot_static_stiffness")
     wheel_load = _number("wheel_load")
     wheelbase = _number("wheelbase")
+    speed = _number("speed")
+    suspension = param.ClassSelector(
+        class_=tig.Suspension, default=None, allow_None=True, label=surroundings.LABELS["suspension"]
+    )
+    axle_positions = param.Parameter(
+        default=surroundings.OFF["axle_positions"], label=surroundings.LABELS["axle_positions"]
+    )
+    ground = param.ClassSelector(
+        class_=tig.Ground, default=None, allow_None=True, label=surroundings.LABELS["ground"]
+    )
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
     refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")
 
@@ -308,9 +324,9 @@ class DesignInputs(param.Parameterized):
         gesture : int, optional
             Number of the gesture that gave it.
         """
-        values, refused = {}, {}
+        values, refused = self._surroundings(given)
         for name in (*PHYSICAL, *LOAD):
-            if name in given:
+            if name in given and name not in SURROUNDINGS:
                 dynamic = name.replace("_static", "") if "_static" in name else None
                 try:
                     values[name] = read_input(name, given[name], dynamic and getattr(self, dynamic))
@@ -320,10 +336,33 @@ class DesignInputs(param.Parameterized):
         try:
             if given.get("preset") in tuple(tig.PRESETS):
                 self.preset = given["preset"]
+            self._refuse_apart(values, refused)
             earlier = {name: words for name, words in self.refused.items() if name not in values}
             self.param.update(**values, refused={**earlier, **refused})
         finally:
             self.gesture = None
+
+    def _surroundings(self, given):
+        """Return what was chosen of vehicle, axles and ground, and what was refused of it, by name."""
+        values, refused = {}, {}
+        for name in SURROUNDINGS:
+            if name in given:
+                if given[name] in surroundings.CHOICES[name].values():
+                    now = {each: getattr(self, each) for each in SURROUNDINGS} | values
+                    values |= surroundings.choose(name, given[name], now)
+                elif given[name] != surroundings.OWN:
+                    refused[name] = "choose one of what is offered"
+        return values, refused
+
+    def _refuse_apart(self, values, refused):
+        """Refuse values, each of them allowed, that do not go with a study's own axles."""
+        try:
+            design_of(self.to_values() | values)
+        except tig.DesignError as error:
+            words = f"{surroundings.LABELS['axle_positions'].lower()} and speed then need {error.allowed}"
+            for name in AXLES & values.keys():
+                refused[name] = words
+                del values[name]
 
     @param.depends("two_stage", watch=True)
     def _forget_second_stage(self):
@@ -333,6 +372,10 @@ class DesignInputs(param.Parameterized):
     @param.depends(*PHYSICAL, watch=True)
     def _note_modified(self):
         self.modified = self.to_design() != self.preset_design
+
+
+AXLES = {"axle_positions", "speed", "fastener_spacing"}
+"""Inputs of which not all values go together."""
 
 
 def check_values(values):
@@ -350,13 +393,21 @@ class GainDefinition(param.Parameterized):
     )
     reference = param.Selector(
         default="line",
-        objects={"Straight line (paper)": "line", "Rigid track": "rigid"},
+        objects={
+            "Straight line (paper)": "line",
+            "Rigid track": "rigid",
+            "Very stiff track, same ground": "stiff",
+        },
         label="Against",
     )
 
     def gain(self, solution):
         """Return the insertion gain of a solution (trackig_core.InsertionGain), computed once."""
-        return solution.gain_for(self.reference, self.summation)
+        return solution.gain_for(self.reference_of(solution.design), self.summation)
+
+    def reference_of(self, design):
+        """Return the reference of a design (str): the chosen one, or the one that its ground leaves."""
+        return reference_for(design, self.reference)
 
     def levels_of(self, spectrum, solution):
         """Return the insertion gain of another spectrum of the design that was solved.
@@ -373,10 +424,12 @@ class GainDefinition(param.Parameterized):
         numpy.ndarray (21,)
             Insertion gain [dB].
         """
+        reference = self.reference_of(solution.design)
         return tig.insertion_gain(
             spectrum,
             solution.design,
             solution.natural_frequencies.loaded_track,
-            reference=self.reference,
+            reference=reference,
             summation=self.summation,
+            stiff=solution.stiff_spectrum(solution.design) if reference == "stiff" else None,
         ).levels
