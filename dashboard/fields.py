@@ -164,7 +164,8 @@ EXTRA_FIELDS = {
         ),
         Field(
             *("speed", "Speed", "km/h", KILOMETRE_PER_HOUR, 20, 360, 5, SUSPENDED),
-            "At which all wheels pass the same roughness, one after the other; empty: each has its own.",
+            "At which all wheels pass the same roughness, one after the other; empty: each has its own. One "
+            "wheel meets its roughness alone, at any speed.",
             blank="independent roughness",
             figures=12,
         ),
@@ -198,7 +199,10 @@ EXTRA_FIELDS = {
 EVERY_FIELD = FIELDS | EXTRA_FIELDS
 """Every number that the sidebar sets, by its name."""
 
-CLOSED_GROUPS = ("Advanced", SUSPENDED, "Statics", GROUND)
+GROUPS = ("Rail pad", "Block and boot", "Track", "Vehicle", SUSPENDED, GROUND, "Advanced", "Statics")
+"""Groups of the sidebar, in its order."""
+
+CLOSED_GROUPS = (SUSPENDED, GROUND, "Advanced", "Statics")
 """Groups of which the sidebar shows no more than the heading until somebody opens them."""
 
 NUMBERS = tuple(FIELDS)

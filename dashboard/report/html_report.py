@@ -15,8 +15,10 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, LOAD, NEWTON_PER_METRE
 from dashboard.report import plots
+from dashboard.session import surroundings
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
 from dashboard.session.results import DesignResult
+from trackig_core.levels.insertion_gain import reference_for
 
 FREQUENCIES = (
     ("Loaded track", lambda natural: natural.loaded_track),
@@ -78,6 +80,11 @@ def html_report(study, summaries, *, date, version):
         left_out=[each.name for each in shown_designs(study) if each.design not in summaries],
         hidden=[each.name for each in study.pinned if not each.shown],
         kind=formats.definition_text(study.view.summation, study.view.reference),
+        yielding=[
+            each.name
+            for each in results
+            if reference_for(each.design, study.view.reference) != study.view.reference
+        ],
         gain_plot=plots.gain_svg(results, study.specification),
         difference_plot=plots.difference_svg(results, base) if len(results) > 1 else None,
         force_plot=plots.force_svg(results),
@@ -119,7 +126,8 @@ def _results(study, summaries):
 def _result(study, record, summary):
     if summary is None:
         return DesignResult(record)
-    gain = summary.solution.gain_for(study.view.reference, study.view.summation)
+    reference = reference_for(record.design, study.view.reference)
+    gain = summary.solution.gain_for(reference, study.view.summation)
     limits = study.specification
     deflection = tig.analysis.limited_deflection(limits, record.design)
     verdict = None if limits is None else limits.check(gain.levels, deflection)
@@ -146,12 +154,15 @@ def _inputs(results, base):
 INPUT_ROWS = (
     ("rail", "Rail", ""),
     *((name, field.label, field.unit) for name, field in EVERY_FIELD.items() if name not in LOAD),
+    *((name, label, "") for name, label in surroundings.LABELS.items()),
 )
 """Attribute, label and unit of each input of a design."""
 
 
 def is_told(design, name):
-    """Return whether an input of a design is reported: an extra number only where it is set."""
+    """Return whether an input of a design is reported: an extra one only where it is set."""
+    if name in surroundings.OFF:
+        return getattr(design, name) != surroundings.OFF[name]
     if name not in EXTRA_FIELDS:
         return True
     field = EXTRA_FIELDS[name]
@@ -191,6 +202,8 @@ def _bounds(results):
 
 def input_text(design, field):
     """Return an input as the report shows it."""
+    if field in surroundings.OFF:
+        return surroundings.text(design, field)
     value = getattr(design, field)
     if value is None:
         return "in the stiffness table" if _has_own_loss(design, field) else "–"

@@ -1,4 +1,4 @@
-"""What stands on and under a track, as it is chosen: vehicle, axles and ground of the catalogue, or a study's own.
+"""What stands on and under a track, as it is chosen: of the catalogue, or a study's own.
 
 A design holds suspension, positions and ground as they are [SI units]; here they are named. What no entry of
 the catalogue gives is a study's own: it is shown as such and kept to the last digit.
@@ -26,8 +26,8 @@ CHOICES = {
 
 WORDS = {
     "suspension": (
-        "Suspension, bogie and body above the wheel; the unsprung mass stays as its slider says. Round figures "
-        "of the kind, not those of a vehicle (regional: Manchester Benchmarks)."
+        "Suspension, bogie and body above the wheel; the unsprung mass stays as its slider says. Round "
+        "figures of the kind, not those of a vehicle (regional: Manchester Benchmarks)."
     ),
     "axle_positions": (
         "The second axle of the vehicle's bogie on the same rail; without a vehicle that of a regional one. "

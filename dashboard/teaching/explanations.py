@@ -318,6 +318,7 @@ def definitions(design):
     Definitions
         Levels and sentences.
     """
+    design, also = (design, ()) if design.ground is None else (design.replace(ground=None), (ON_RIGID,))
     solution = tig.solve(design, "exact")
     levels = {
         f"{summation}_{reference}": solution.gain_for(reference, summation).levels
@@ -340,6 +341,7 @@ def definitions(design):
             "supports share the load; the rigid track passes the whole load at one place. The coherent "
             f"force has no such step: line and rigid track are {abs(coherent_step):.2f} dB apart for it.",
             "The wheel always stands over a support: this model knows no other place for it.",
+            *also,
         ),
         (
             f"On supports of {to_display('pad_stiffness', STIFF):,.0f} kN/mm the wheel still bounces on its "
@@ -353,6 +355,13 @@ def definitions(design):
             "the peak.",
         ),
     )
+
+
+ON_RIGID = (
+    "All this is drawn for the same track on rigid ground. On ground that yields neither line nor rigid "
+    "track is a reference: the ground's own amplification would count as the track's."
+)
+"""What is said of a design whose own ground yields."""
 
 
 def _about_sums(differences, waves_begin):

@@ -9,6 +9,7 @@ import trackig_core as tig
 from dashboard import formats
 from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, EXTRAS, LOAD, six_figures
 from dashboard.figures.swatches import swatch_svg
+from dashboard.session import surroundings
 from dashboard.session.inputs import DesignInputs, display_values
 
 NONE = "–"
@@ -78,6 +79,9 @@ def _parameter_rows(results, base):
             [_parameter_cell(values.get(name), own.get(name)) for values in every],
         )
     yield DesignInputs.param.rail.label, [(values["rail"], "") for values in every]
+    for name, label in surroundings.LABELS.items():
+        if any(values[name] != surroundings.OFF[name] for values in every):
+            yield label, [(surroundings.text(each.design, name), "") for each in results]
 
 
 def _is_told(name, every):

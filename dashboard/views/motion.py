@@ -116,7 +116,7 @@ class Motion(Subject):
         summary = self.outcome.summary
         if summary is None or not self.question.looked_at:
             return
-        self.pick.name_axis(gain_axis(self.definition))
+        self.pick.name_axis(gain_axis(self.definition, summary.design))
         self.pick.show(level=self.definition.gain(summary.solution).levels)
         shape = tig.steady_shape(summary.design, float(self.pick.cursor.location))
         self.shape.show(shape)

@@ -8,10 +8,25 @@ nothing else.
 from panel.viewable import Viewer
 
 from dashboard.client.quantities import Quantities
-from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, INPUTS, NUMBERS, SECOND_STAGE
+from dashboard.fields import (
+    CLOSED_GROUPS,
+    EVERY_FIELD,
+    GROUND,
+    GROUPS,
+    INPUTS,
+    NUMBERS,
+    SECOND_STAGE,
+    SURROUNDINGS,
+    SUSPENDED,
+)
+from dashboard.session import surroundings
 from dashboard.session.inputs import display_values
 
-FIRST_ROWS = {"Block and boot": ("two_stage",)}
+FIRST_ROWS = {
+    "Block and boot": ("two_stage",),
+    SUSPENDED: ("suspension", "axle_positions"),
+    GROUND: ("ground",),
+}
 LAST_ROWS = {"Track": ("rail",)}
 """Inputs that are no numbers, by the group that they begin or end."""
 
@@ -54,9 +69,9 @@ class Controls(Viewer):
         marks = display_values(inputs.preset_design)
         self.quantities.state = {
             "number": self._number,
-            "values": {name: getattr(inputs, name) for name in INPUTS},
+            "values": shown_values(inputs),
             "refused": inputs.refused,
-            "disabled": [] if inputs.two_stage else list(SECOND_STAGE),
+            "disabled": disabled(inputs),
             "marks": {name: marks[name] for name in NUMBERS if name in marks},
             "modified": inputs.modified,
         }
@@ -93,12 +108,27 @@ def groups(inputs):
     """
     track = [_choice(inputs, "preset", replaces=True), {"kind": "departure", "label": "Back to Table 1"}]
     found = [{"title": "", "closed": False, "fields": track}]
-    for title in dict.fromkeys(field.group for field in EVERY_FIELD.values()):
+    for title in GROUPS:
         rows = [_other(inputs, name) for name in FIRST_ROWS.get(title, ())]
         rows += [_number(field) for field in EVERY_FIELD.values() if field.group == title]
         rows += [_other(inputs, name) for name in LAST_ROWS.get(title, ())]
         found.append({"title": title, "closed": title in CLOSED_GROUPS, "fields": rows})
     return found
+
+
+def shown_values(inputs):
+    """Return what the controls show, by name: numbers [display units], switches, and keys of choices."""
+    values = {name: getattr(inputs, name) for name in INPUTS}
+    return values | {name: surroundings.chosen(name, values) for name in SURROUNDINGS}
+
+
+def disabled(inputs):
+    """Return the names of inputs that mean nothing for the design (list of str).
+
+    A single-stage track has no second stage, and one wheel follows no other at any speed.
+    """
+    second_stage = [] if inputs.two_stage else [*SECOND_STAGE]
+    return [*second_stage, *([] if len(inputs.axle_positions) > 1 else ["speed"])]
 
 
 def _number(field):
@@ -107,9 +137,24 @@ def _number(field):
 
 
 def _other(inputs, name):
+    if name in SURROUNDINGS:
+        return _surroundings(name)
     if isinstance(getattr(inputs, name), bool):
         return {"kind": "switch", "name": name, "label": inputs.param[name].label}
     return _choice(inputs, name)
+
+
+def _surroundings(name):
+    """Return a choice from the catalogue, which says a study's own values too while there are any."""
+    return {
+        "kind": "choice",
+        "name": name,
+        "label": surroundings.LABELS[name],
+        "options": [*map(list, surroundings.CHOICES[name].items()), ["the study's own", surroundings.OWN]],
+        "given": surroundings.OWN,
+        "words": surroundings.WORDS[name],
+        "replaces": False,
+    }
 
 
 def _choice(inputs, name, replaces=False):

@@ -86,10 +86,9 @@ class Subject(Viewer):
         """Draw an answer."""
         raise NotImplementedError
 
-    @property
-    def gain_arguments(self):
-        """Which insertion gain is shown, as arguments of an explanation."""
-        return self.definition.reference, self.definition.summation
+    def gain_arguments(self, design):
+        """Return which insertion gain is shown of a design, as arguments of an explanation."""
+        return self.definition.reference_of(design), self.definition.summation
 
 
 def words(*_):
@@ -192,11 +191,11 @@ class Slopes(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.slopes, design, *self.gain_arguments
+        return explanations.slopes, design, *self.gain_arguments(design)
 
     def show(self, answer):
         """Draw curves and asymptotes."""
-        self.figure.name_axis(gain_axis(self.definition))
+        self.figure.name_axis(gain_axis(self.definition, self.outcome.summary.design))
         levels = {"level": answer.levels}
         if answer.one_stage_levels is not None:
             levels["one_stage"] = answer.one_stage_levels
@@ -262,7 +261,7 @@ class Damping(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.damping, design, *self.gain_arguments
+        return explanations.damping, design, *self.gain_arguments(design)
 
     def show(self, answer):
         """Draw the laws and what they do."""
@@ -271,7 +270,7 @@ class Damping(Subject):
             drawn = dict.fromkeys(("pad", "boot", "pad_stated", "boot_stated"), explanations.NOT_THERE)
             drawn |= {part: getattr(curve, of) for part, curve in curves.items() if curve is not None}
             figure.show(explanations.DAMPED, **drawn)
-        self.gain.name_axis(gain_axis(self.definition))
+        self.gain.name_axis(gain_axis(self.definition, self.outcome.summary.design))
         self.gain.show(**{curve.column: row for curve, row in zip(self.CURVES, answer.levels, strict=True)})
         say(self.words, answer.words)
 
@@ -351,11 +350,11 @@ class LumpedVsBeam(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.lumped_vs_beam, design, *self.gain_arguments
+        return explanations.lumped_vs_beam, design, *self.gain_arguments(design)
 
     def show(self, answer):
         """Draw both, and shade where they agree."""
-        self.figure.name_axis(gain_axis(self.definition))
+        self.figure.name_axis(gain_axis(self.definition, self.outcome.summary.design))
         self.figure.show_comparison(answer.comparison)
         say(self.words, answer.words)
 
