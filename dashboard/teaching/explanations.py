@@ -482,15 +482,23 @@ def shape_words(shape):
     str
         Sentences.
     """
-    rail = shape.rail[shape.rail.shape[0] // 2, 0]
-    wheel = shape.wheel[0]
-    amounts = f"the wheel moves {_times(wheel)}, the rail under it {_times(rail)}"
+    at = shape.wheel_position[0]
+    wheel, rail = shape.wheel[0], _nearest(shape.position, shape.rail, at)
+    which = "the wheel" if shape.wheel_position.size == 1 else "the first wheel"
+    amounts = f"{which} moves {_times(wheel)}, the rail under it {_times(rail)}"
     phases = f"Wheel and rail move {_phase(wheel, rail)}"
     if shape.block is not None:
-        block = shape.block[shape.block.shape[0] // 2, 0]
+        block = _nearest(shape.support_position, shape.block, at)
         amounts += f", the block {_times(block)}"
         phases += f"; rail and block {_phase(rail, block)}"
+    if shape.foot is not None:
+        amounts += f", the foot on the ground {_times(_nearest(shape.support_position, shape.foot, at))}"
     return f"At {frequency_text(float(shape.frequency[0]))} {amounts} the roughness. {phases}."
+
+
+def _nearest(positions, moved, at):
+    """Return the displacement of what stands nearest to a place [m], at the first frequency."""
+    return moved[np.abs(positions - at).argmin(), 0]
 
 
 def _times(movement):
