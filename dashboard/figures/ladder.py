@@ -32,6 +32,9 @@ FULL = 6.0
 DARK = 0.7
 """Part of the full colour from which the figure in a cell is white [-]."""
 
+LABEL_ROOM = 190
+"""Room for the names of the rungs, so that both figures have their bands below each other [px]."""
+
 HEAT_HEIGHT = 38
 """Height of a row of cells [px]."""
 
@@ -40,7 +43,9 @@ class LadderFigure(BandsFigure):
     """Insertion gain of every rung; its source is named ``left_out``."""
 
     def __init__(self):
-        super().__init__("left_out", list(RUNGS.values()), "IG, dB (stiff track, same ground)")
+        super().__init__("left_out", list(RUNGS.values()), "IG, dB (stiff)")
+
+        self.model.min_border_left = LABEL_ROOM
 
     def show_ladder(self, ladder):
         """Draw a trackig_core.analysis.Ladder."""
@@ -72,6 +77,7 @@ class DifferencesFigure:
             aria_label="Difference of each rung from the simplified model, dB, per band",
         )
         show_bands(self.model, every=2)
+        self.model.min_border_left = LABEL_ROOM
         self.model.ygrid.visible = False
         colours = LinearColorMapper(palette=RdBu11, low=-FULL, high=FULL)
         drawn = self.model.hbar(

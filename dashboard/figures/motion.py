@@ -18,7 +18,7 @@ from bokeh.plotting import figure
 from dashboard import theme
 
 WHEEL_AT, RAIL_AT, BLOCK_AT, FOOT_AT, FLOOR_AT = 0.66, 0.0, -0.6, -1.1, -1.5
-"""Heights at rest: the wheel's centre, the rail, the blocks' centres, the supports' feet, on which rigid ground
+"""Heights at rest: the wheel's centre, the rail, the blocks' centres, the supports' feet, where rigid ground
 lies too, and what carries ground that yields [units of the drawing]."""
 
 WHEEL_HEIGHT, BLOCK_HEIGHT = 0.62, 0.24
@@ -355,8 +355,8 @@ class _Player:
     parts : sequence of bokeh.models.ColumnDataSource
         What moves; the last one, once sent, makes the browser draw.
     frame : str
-        Script that defines ``of_rail``, ``of_block``, ``of_foot`` and ``of_wheel``; it knows the parts by their
-        names.
+        Script that defines ``of_rail``, ``of_block``, ``of_foot`` and ``of_wheel``; it knows the parts by
+        their names.
     rate : str
         Script of how far the slider moves on in one millisecond.
     speed : bokeh.models.Select, optional
@@ -392,8 +392,8 @@ class FilmPlayer(_Player):
     view : SideView
         The drawing.
     film : bokeh.models.ColumnDataSource
-        Named ``film``, a row per frame: ``time`` [ms], ``wheel_0`` ..., ``rail_0`` ... and ``block_0`` ... [µm],
-        from one wheel to one side, or left to right.
+        Named ``film``, a row per frame: ``time`` [ms], ``wheel_0`` ..., ``rail_0`` ... and ``block_0`` ...
+        [µm], from one wheel to one side, or left to right.
     slider, play, speed
         Time [ms], play and pause, and how slow.
     """

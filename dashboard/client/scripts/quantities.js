@@ -354,6 +354,7 @@ class Choice {
     })
     const label = element("span", {className: "over", "aria-hidden": "true"}, field.label)
     this.root = element("div", {className: "choice"}, label, this.select, ...(field.words === undefined ? [] : helpOf(field)))
+    this.root.classList.toggle("explained", field.words !== undefined)
   }
 
   // What can only be given, not chosen, is offered while it is there.
