@@ -62,14 +62,18 @@ class Subject(Viewer):
         )
         self.question.param.watch(self._complain, "problem")
         self.question.param.watch(self._answered, "answer")
-        outcome.param.watch(self._follow, "summary")
+        outcome.param.watch(self._follow, ["summary", "asked"])
         definition.param.watch(self._follow, ["reference", "summation"])
 
     def _follow(self, *_):
         summary = self.outcome.summary
-        if summary is None or (self.at_rest_only and summary.solution.fidelity != "paper"):
+        if summary is None or (self.at_rest_only and not self._is_at_rest(summary)):
             return
         self.question.asked = self.ask(summary.design)
+
+    def _is_at_rest(self, summary):
+        """Return whether a picture is the last one of its inputs, or will be for long."""
+        return summary.solution.fidelity == "paper" or summary.design == self.outcome.asked
 
     def _complain(self, *_):
         self.problem.param.update(object=self.question.problem, visible=bool(self.question.problem))
