@@ -158,15 +158,24 @@ class Runner(param.Parameterized):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
         live = asyncio.ensure_future(self._obtain((design, MOVING), document))
         try:
-            # what live fidelity refuses or gives up, the paper's run answers or explains
-            with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
-                await self._bridge(live, design, document)
-                summary, _ = await live
-                self._publish(document, **self._success(design, summary, from_cache=False))
+            await self._bridge(live, design, document)
+            summary, _ = await live
+            self._publish(document, **self._success(design, summary, from_cache=False))
+        except (_SlowError, tig.DesignError, tig.RunTooLargeError):
+            # what live fidelity refuses or gives up, the paper's run answers or explains, after a long while
+            # where it is that of more than the simplified model
+            if design != design.simplified:
+                await self._draw_exact(design, document)
         finally:
             _abandon(live)
         if await self._news_within(REST):
             raise _SupersededError
+
+    async def _draw_exact(self, design, document):
+        """Draw the exact curve of a design, if it has one."""
+        with contextlib.suppress(tig.DesignError):
+            summary, from_cache = await self._obtain((design, AT_ONCE), document)
+            self._publish(document, **self._success(design, summary, from_cache))
 
     async def _bridge(self, live, design, document):
         """Draw the exact curve while a live run is awaited for long; what is newer then ends the wait.

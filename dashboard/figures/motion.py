@@ -68,8 +68,8 @@ class SideView:
         ``<name>_rail``: ``x`` [m] and height ``y`` of the elements, left to right.
     supports : bokeh.models.ColumnDataSource
         ``<name>_supports``: ``x`` [m], heights of ``rail``, block (``block``, its ``top`` and ``bottom``) and
-        ``ground``, ``width`` [m], and ``floor``; left to right. Blocks are NaN when single-stage, ``floor``
-        is where no foot moves.
+        ``ground``, ``width`` and that of the ``foot`` [m], and ``floor``; left to right. Blocks are NaN
+        when single-stage, the foot has no width where none moves.
     wheel : bokeh.models.ColumnDataSource
         ``<name>_wheel``, a row per wheel: ``x`` [m], heights ``y`` of its centre, ``foot`` and ``rail``, and
         the ``element`` of the drawing on which it stands.
@@ -86,7 +86,9 @@ class SideView:
             return ColumnDataSource(name=f"{name}_{part}", data={key: [] for key in columns}, syncable=False)
 
         self.rail = source("rail", "x", "y")
-        self.supports = source("supports", "x", "rail", "block", "top", "bottom", "ground", "width", "floor")
+        self.supports = source(
+            "supports", "x", "rail", "block", "top", "bottom", "ground", "width", "foot", "floor"
+        )
         self.wheel = source("wheel", "x", "y", "foot", "rail", "element")
         self.facts = source("facts", "scale", "elements", "bays")
         self.bar = source("bar", "x", "low", "high", "text")
@@ -113,7 +115,7 @@ class SideView:
         plot.rect(
             x="x",
             y="ground",
-            width="width",
+            width="foot",
             height=FOOT_HEIGHT,
             source=self.supports,
             fill_color=theme.PRESET_GHOST,
@@ -232,6 +234,7 @@ class SideView:
             "bottom": block - BLOCK_HEIGHT / 2,
             "ground": foot,
             "width": np.full(supports.size, BLOCK_WIDTH * spacing),
+            "foot": np.full(supports.size, BLOCK_WIDTH * spacing if yields else 0.0),
             "floor": np.full(supports.size, floor),
         }
         count = places.wheels.size

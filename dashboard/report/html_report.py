@@ -41,7 +41,7 @@ TEMPLATES = jinja2.Environment(
 """Templates of what is printed; whatever they show is escaped."""
 
 
-def html_report(study, summaries, *, date, version):
+def html_report(study, summaries, *, date, version, left_out=None):
     """Return a report of a study.
 
     Parameters
@@ -54,6 +54,8 @@ def html_report(study, summaries, *, date, version):
         The day of the report.
     version : str
         Version of the software.
+    left_out : dashboard.teaching.left_out.LeftOut, optional
+        What the simplified model leaves out of the current design, where that was asked for.
 
     Returns
     -------
@@ -100,9 +102,24 @@ def html_report(study, summaries, *, date, version):
         sources=_sources(results, base, study.source),
         fidelities=formats.fidelities_text(each.summary.solution.fidelity for each in results),
         notes=[(each.name, each.summary.solution.notes) for each in results if each.summary.solution.notes],
+        ladder=None if left_out is None else _ladder(left_out, every[0].name),
         file=study.to_toml(),
         theme=theme,
     )
+
+
+def _ladder(left_out, name):
+    """Return what the report says of a design's ladder."""
+    ladder = left_out.ladder
+    rungs = (*ladder.rungs, ladder.one_dimensional)
+    columns = [ladder.rungs[0].insertion_gain, *(rung.difference for rung in rungs[1:])]
+    cells = [list(map(formats.signed_text, levels)) for levels in zip(*columns, strict=True)]
+    return {
+        "design": name,
+        "rungs": rungs,
+        "bands": list(zip(tig.BAND_LABELS, cells, strict=True)),
+        "words": left_out.words,
+    }
 
 
 def _beyond(results):
