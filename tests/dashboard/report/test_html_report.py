@@ -301,7 +301,7 @@ def test_what_the_simplified_model_leaves_out_is_reported_on_request(study, summ
     assert "simplified model leaves out" not in html_report(study, summaries, date=DAY, version="1")
 
 
-def test_vehicle_and_ground_are_named_and_compared_with_what_has_a_meaning(fake_picture):
+def test_vehicle_and_ground_are_named_and_compared_with_what_has_a_meaning():
     metro = tig.PRESETS["slab-track"].replace(
         suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["soft clay"]
     )

@@ -173,7 +173,7 @@ def test_the_ladder_shades_the_bands_that_agree(outcome, definition):
     np.testing.assert_allclose(subject.figure.good.data["left"], tig.BAND_EDGES[:-1][comparison.good_enough])
 
 
-def test_what_was_left_out_is_the_library_s_ladder(outcome, definition, fake_picture):
+def test_what_was_left_out_is_the_library_s_ladder(outcome, definition):
     subject = looked_at(LeftOut(outcome, definition))
     ladder = tig.analysis.ladder(BLOCK, "regional", "rock")
     drawn = subject.figure.bands.data
