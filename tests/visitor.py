@@ -12,8 +12,6 @@ from urllib.parse import urlsplit
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
-SLIDER = "Boot stiffness, kN/mm"
-
 READY = {
     "kind": "MessageSent",
     "msg_type": "bokeh_event",
@@ -72,8 +70,9 @@ class Visitor:
                 self._note(each)
 
     def named(self, name):
-        """Return the identity of the model of a name."""
-        return next(key for key, model in self.models.items() if model["attributes"].get("name") == name)
+        """Return the identity of the model of a name; None where no such model has been made yet."""
+        names = ((key, model["attributes"].get("name")) for key, model in self.models.items())
+        return next((key for key, each in names if each == name), None)
 
     def component(self, attribute):
         """Return the identity of the component of ours whose script knows an attribute."""
@@ -120,25 +119,19 @@ class Visitor:
 
     async def move(self, value):
         """Set the boot stiffness [kN/mm]."""
-        await self.patch(self._slider(value))
-
-    def _slider(self, value):
-        slider = next(
-            (key for key, model in self.models.items() if model["attributes"].get("label") == SLIDER), None
-        )
-        if slider is not None:
-            return changed(slider, "value", value)
         self._count += 1
-        message = {"kind": "set", "number": self._count, "values": {"boot_stiffness": value}}
-        return told(self.component("feasible"), message)
+        values = {"boot_stiffness": value}
+        message = {"kind": "set", "number": self._count, "values": values, "gesture": self._count}
+        await self.patch(told(self.component("groups"), message))
 
     async def picture(self, timeout=60):
         """Wait for the next insertion gain, and return how long that took [s]."""
         began = time.perf_counter()
-        source = self.named("insertion_gain")
         async with asyncio.timeout(timeout):
             while True:
                 content = await self.receive("PATCH-DOC")
+                self._note(content)  # parts of the page come one after the other
+                source = self.named("insertion_gain")
                 if any(event.get("model", {}).get("id") == source for event in content["events"]):
                     return time.perf_counter() - began
 
@@ -146,11 +139,6 @@ class Visitor:
         """Leave."""
         if self.socket is not None:
             self.socket.close()
-
-
-def changed(model, attribute, value):
-    """Return the change of a model's attribute."""
-    return {"kind": "ModelChanged", "model": {"id": model}, "attr": attribute, "new": value}
 
 
 def told(model, message):

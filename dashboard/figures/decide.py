@@ -33,6 +33,8 @@ from dashboard.figures.axes import (
     show_one_two_five,
     zero_line,
 )
+from dashboard.figures.legends import Legend, legend_above, with_legend
+from dashboard.figures.swatches import marker_svg, swatch_svg
 
 DIVERGING = tuple(RdBu11[::-1])
 """Colours from less to more, white between them; told apart by colour-blind readers."""
@@ -164,8 +166,7 @@ class TornadoFigure:
                 hatch_color=colour,
                 legend_label=column,
             )
-        plot.add_layout(plot.legend[0], "above")
-        plot.legend.orientation = "horizontal"
+        legend_above(plot)
         plot.add_tools(
             HoverTool(tooltips=[("field", "@field"), ("less", "@less{+0.00}"), ("more", "@more{+0.00}")])
         )
@@ -239,8 +240,7 @@ class PercentileFigure:
                 **shared,
             )
         _draw_limit(plot, self.bands, legend_label="required maximum")
-        plot.add_layout(plot.legend[0], "above")
-        plot.legend.orientation = "horizontal"
+        legend_above(plot)
 
     def show(self, percentiles, stated, limit):
         """Draw insertion gain at 5, 50, 95 % of production (3, 21), as stated (21,), and the limit [dB]."""
@@ -261,11 +261,15 @@ class MapFigure:
     ----------
     model : bokeh.plotting.figure or None
         The figure; a new one for other fields, since an axis is logarithmic or it is not.
+    legend : Legend or None
+        What is drawn, in words.
+    layout : bokeh.models.Column or None
+        The figure, and its legend below it.
     """
 
     def __init__(self, on_tap):
         self._on_tap = on_tap
-        self.model = None
+        self.model = self.legend = self.layout = None
 
     def show(self, found, figure_name, words, designs, limits):
         """Draw a map anew.
@@ -311,45 +315,48 @@ class MapFigure:
         plot.add_tools(
             HoverTool(renderers=[image], tooltips=[("x", "$x"), ("y", "$y"), (words, "@image{0.00}")])
         )
+        entries = []
         for name, limit in limits.items():
             if limit is not None and name in found.figures:
-                self._draw_edge(plot, x, y, found.figures[name] - limit, *EDGES[name])
-        self._mark(plot, found, designs)
+                entries.append(_draw_edge(plot, x, y, found.figures[name] - limit, *EDGES[name]))
+        self.legend = Legend("map_figure")
+        self.legend.show([*entries, *_mark(plot, found, designs)])
+        self.layout = with_legend(plot, self.legend)
         plot.on_event(Tap, lambda event: self._on_tap(event.x, event.y))
 
-    def _draw_edge(self, plot, x, y, over, words, dash):
-        """Draw where a figure is at its limit."""
-        lines = contour_data(x, y, over, levels=[0.0], want_fill=False).line_data
-        plot.multi_line(
-            xs=lines.xs,
-            ys=lines.ys,
-            line_color=theme.SPECIFICATION,
-            line_dash=dash,
-            line_width=theme.LIMIT_LINE_WIDTH,
-            legend_label=words,
+
+def _draw_edge(plot, x, y, over, words, dash):
+    """Draw where a figure is at its limit; return what the legend says of it."""
+    lines = contour_data(x, y, over, levels=[0.0], want_fill=False).line_data
+    edge = plot.multi_line(
+        xs=lines.xs, ys=lines.ys, line_color=theme.SPECIFICATION, line_width=theme.LIMIT_LINE_WIDTH
+    )
+    edge.glyph.line_dash = list(dash)
+    return words, swatch_svg(theme.SPECIFICATION, dash)
+
+
+def _mark(plot, found, designs):
+    """Mark where designs lie; return what the legend says of them."""
+    entries = []
+    for each in designs:
+        place = [getattr(each.design, name) for name in (found.x_field, found.y_field)]
+        if not all(isinstance(value, float) for value in place):
+            continue  # a measured curve or a missing block has no place on the map
+        marker = "circle" if each.key is None else "diamond"
+        plot.scatter(
+            x=[place[0] / FIELDS[found.x_field].factor],
+            y=[place[1] / FIELDS[found.y_field].factor],
+            size=14,
+            marker=marker,
+            fill_color=each.colour,
+            line_color="white",
+            line_width=2,
         )
-
-    def _mark(self, plot, found, designs):
-        for each in designs:
-            design = each.design
-            place = [getattr(design, name) for name in (found.x_field, found.y_field)]
-            if all(isinstance(value, float) for value in place):
-                plot.scatter(
-                    x=[place[0] / FIELDS[found.x_field].factor],
-                    y=[place[1] / FIELDS[found.y_field].factor],
-                    size=14,
-                    marker="circle" if each.key is None else "diamond",
-                    fill_color=each.colour,
-                    line_color="white",
-                    line_width=2,
-                    legend_label=each.name[: theme.LEGEND_NAME],
-                )
-        if plot.legend:
-            plot.add_layout(plot.legend[0], "above")
-            plot.legend.orientation = "horizontal"
+        entries.append((each.name, marker_svg(each.colour, marker)))
+    return entries
 
 
-EDGES = {"margin": ("just complies", "solid"), "deflection": ("sinks just as far as allowed", "dashed")}
+EDGES = {"margin": ("just complies", ()), "deflection": ("sinks just as far as allowed", theme.SECOND_DASH)}
 """What the edges of compliance are called, and their dashes, by the figure that is limited."""
 
 SCALES = {"deflection": 1e3}

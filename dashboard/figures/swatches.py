@@ -28,6 +28,12 @@ def swatch_svg(colour, dash=(), *, dot=False):
     return _drawing(line + (f'<circle cx="17" cy="6" r="5.5" fill="{colour}"/>' if dot else ""))
 
 
+def marker_svg(colour, marker):
+    """Return a design's marker, ``"circle"`` or ``"diamond"``, as a map has it."""
+    shape = {"circle": '<circle cx="17" cy="6" r="5"', "diamond": '<path d="M17 0L21 6L17 12L13 6Z"'}[marker]
+    return _drawing(f'{shape} fill="{colour}"/>')
+
+
 def limit_svg():
     """Return a short piece of a limit, which steps from band to band."""
     return _drawing(f'<path d="M1 9H17V3H33" fill="none" stroke="{theme.SPECIFICATION}" stroke-width="3"/>')

@@ -376,7 +376,7 @@ class Map(Asked):
         if "deflection" in result.figures and specification is not None:
             limits["deflection"] = specification.rail_deflection_limit
         self.map.show(result, name, words, designs, limits)
-        self.place.objects = [bokeh_pane(self.map.model)]
+        self.place.objects = [bokeh_pane(self.map.layout)]
 
     def words(self, result):
         """Return the answer in one sentence."""

@@ -15,7 +15,8 @@ from tests.benchmarks.bench_solver import fastest, multiply_add
 from tests.core.slow import run_ring
 from trackig_core.frequency_domain import batch_kernels as kernels
 from trackig_core.frequency_domain.refinement import banded_spectrum
-from trackig_core.frequency_domain.track_model import track_model
+from trackig_core.frequency_domain.track_model import TrackModel, track_model
+from trackig_core.time_domain import adaptive_grid
 from trackig_core.time_domain.grid import make_grid
 from trackig_core.track.viscoelastic_law import constant_loss_factor, laws
 
@@ -76,6 +77,16 @@ def test_exact_solve(paper_run, tell, remark):
     anew = fastest(lambda: constant_loss_factor(float(next(values))), rounds=500)
     tell(anew, "a new loss factor")
     remark(f"a new loss factor: {anew / whole:.2%} of solve(exact) (goal: 5 %)")
+
+
+@pytest.mark.parametrize("preset", tig.PRESETS)
+def test_live_run(preset, paper_run, tell, remark):
+    """A live run, and what part of it is spent on choosing its grid."""
+    design = tig.PRESETS[preset]
+    whole = fastest(tig.solve, design, "live", rounds=30)
+    tell(whole, f"solve(live), {preset}")
+    chosen = fastest(lambda: adaptive_grid.plan(TrackModel(design, *laws(design))), rounds=50)
+    remark(f"solve(live), {preset}: 1/{paper_run / whole:.0f} of a paper run, {chosen / whole:.0%} its plan")
 
 
 def test_share_of_peak(tell, remark):

@@ -56,14 +56,14 @@ def test_tabs_have_titles_of_their_own_and_keep_their_names_in_links():
 
 
 def open_tabs(store, monkeypatch, name, *others):
-    """Open the page by a link that names a tab, then others by number; return the first."""
+    """Open the page by a link that names a tab, then others by name; return the first."""
     monkeypatch.setattr(type(pn.state), "session_args", {"tab": [name.encode()]})
 
     async def story():
         (_, shown) = app.build(store).main
         opened = shown.active
         for other in others:
-            shown.active = other
+            shown.active = list(TABS).index(other)
         async with asyncio.timeout(60):
             while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
                 await asyncio.wait(tasks)
@@ -90,14 +90,14 @@ def test_a_link_opens_its_tab_and_makes_no_other(store, monkeypatch, name):
 def test_a_tab_is_made_once(store, monkeypatch):
     made, start = [], app.Track.__init__
     monkeypatch.setattr(app.Track, "__init__", lambda self, *parts: made.append(1) or start(self, *parts))
-    open_tabs(store, monkeypatch, "explore", 4, 0, 4)
+    open_tabs(store, monkeypatch, "explore", "track", "explore", "track")
     assert made == [1]
 
 
 def test_a_view_is_told_when_it_is_in_sight_and_when_it_is_not(store, monkeypatch):
     looks = []
     monkeypatch.setattr(app.Method, "look", lambda _, active: looks.append(active))
-    open_tabs(store, monkeypatch, "method", 0, 7)
+    open_tabs(store, monkeypatch, "method", "explore", "method")
     assert looks == [True, False, True]
 
 

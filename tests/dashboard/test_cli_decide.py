@@ -247,7 +247,7 @@ def test_control_c_leaves_the_best_so_far(save, tmp_path):
     out = tmp_path / "cloud.csv"
     words = ["find", save(), "--free", "boot_stiffness", "--free", "block_mass", "--generations", "100000"]
     process = subprocess.Popen(
-        [sys.executable, "-m", "dashboard.cli", *words, "--csv", str(out)],
+        [sys.executable, "-m", "dashboard", *words, "--csv", str(out)],
         cwd=ROOT,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -74,9 +74,9 @@ def resolved_spectrum(
 
 
 def _is_compiled(lattice: Lattice) -> bool:
-    """Return whether a lattice is refined by compiled code: all that are not for study only."""
-    ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
+    """Return whether compiled code refines a lattice: all whose rail only bends, but those for study."""
     euler = lattice.rail == "euler" and lattice.elements_per_bay == batch_kernels.ELEMENTS_PER_BAY
+    ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
     return euler and not ring_in_continuous_time
 
 

@@ -368,7 +368,8 @@ def _are_bands(column: Column) -> bool:
 
 def _levels(table: Table, frequencies: Column, quantity: Quantity) -> Column:
     """Return the column that holds the levels, or raise the quantity's error if several may."""
-    others = [each for each in _uncounted(table.columns) if each is not frequencies]
+    beside = [each for each in table.columns if each is not frequencies]
+    others = [each for each in _uncounted(table.columns) if each is not frequencies] or beside
     named = [each for each in others if each.header.casefold() == quantity.column]
     able = [each for each in others if each.unit is None or each.unit.quantity == "level"]
     in_decibels = [each for each in able if each.unit is not None]
@@ -395,7 +396,7 @@ def _of_quantity(column: Column, quantity: Quantity) -> Column:
     return column
 
 
-_COLUMNS = ("ig_max_db", "level_db")
+_COLUMNS = ("ig_max_db", "level_db", "ig_db")
 """Headers of levels in the files that are written."""
 
 

@@ -19,9 +19,8 @@ No objects, no I/O, and no globals but this file's own constants. Numba's disk c
 global nor an edit in another file.
 """
 
-from numba import njit
-
 from trackig_core.arrays import IntArray, RealArray
+from trackig_core.compiling import njit
 
 LANES = 16
 """Supports that are stepped side by side [-]: two vectors of eight doubles."""

@@ -104,7 +104,7 @@ def studies(draw):
         view,
         draw(names),
         draw(presets),
-        draw(st.lists(tables(tig.MeasuredGain).filter(lambda gain: gain is not None), max_size=4)),
+        measured=draw(st.lists(tables(tig.MeasuredGain).filter(lambda gain: gain is not None), max_size=4)),
     )
 
 

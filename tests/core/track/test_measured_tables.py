@@ -85,7 +85,7 @@ def test_what_is_set_aside_is_said():
         ("f;k;eta;k2\n10;20;.1;3\n20;20;.1;3", "column 4 ('k2')"),
         ("f;k [kN/mm];eta\n10;2x0;.1\n20;20;.1", "line 2, column 2: '2x0'"),
         ("f;k [kN/mm];eta\n10;20;.1\n20;soft;.1\n30;20;.1", "line 3, column 2: 'soft' is no number"),
-        ("f;k [kN/mm];eta\n20;20;.1\n10;20;3", "line 3: loss factor = 3.0: give a number from 0.0001 to 1"),
+        ("f;k [kN/mm];eta\n20;20;.1\n10;20;3", "line 3: loss factor = 3.0: give a number from 0.0001 to 2"),
         ("f;k [kN/mm];eta\n10;1e9;.1\n20;1e9;.1", "are the figures in N/m?"),
         ("f;k [kN/mm];eta\n10;20 kg;.1\n20;20;.1", "'20 kg' is in kg, a unit of mass: give it in N/m"),
         (b"%PDF", "this is a PDF"),

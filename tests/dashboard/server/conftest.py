@@ -53,7 +53,7 @@ def serving(folder, *words):
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     log = folder / "log.txt"
-    command = [sys.executable, "-m", "dashboard.cli", "serve", "--port", str(port), *words]
+    command = [sys.executable, "-m", "dashboard", "serve", "--port", str(port), *words]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with log.open("w") as output:
         process = subprocess.Popen(

@@ -25,8 +25,9 @@ class Session:
 
     def __init__(self, summary, make_pictures, specification):
         self.inputs, self.definition, self.pins = DesignInputs(), GainDefinition(), Pins()
+        self.pinned = make_pictures()
         outcome = Outcome(summary=summary("booted-block-low-mass"))
-        self.assessment = Assessment(self.inputs, outcome, self.definition, self.pins, make_pictures())
+        self.assessment = Assessment(self.inputs, outcome, self.definition, self.pins, self.pinned)
         self.assessment.specification = specification
         self.view = Decide(self.inputs, self.definition, self.pins, self.assessment)
 
@@ -133,12 +134,16 @@ def test_a_tap_on_the_map_takes_the_design_there(session):
     assert taken.pad_stiffness == BLOCK.pad_stiffness
 
 
-def test_a_map_shows_both_edges_and_the_pins(session):
-    session.pins.add(BLOCK.replace(block_mass=200.0), "Heavy <b>")
+def test_a_map_shows_both_edges_and_the_pins(session, summary):
+    pin = session.pins.add(tig.PRESETS["booted-block-high-mass"], "Heavy <b>")
+    session.pinned.summaries = {pin.key: summary("booted-block-high-mass")}
     session.do(session.view.map.ask)
-    words = [item.label["value"] for item in session.view.map.map.model.legend[0].items]
-    assert words[:2] == ["just complies", "sinks just as far as allowed"]
-    assert "This design" in words
+    drawn = session.view.map.map
+    edges = ("just complies", "sinks just as far as allowed")
+    assert drawn.legend.listed == (*edges, "This design", "Heavy <b>")
+    assert len(drawn.model.renderers) == 1 + len(drawn.legend.listed)
+    assert "Heavy &lt;b&gt;" in drawn.legend.model.text
+    assert not drawn.model.legend
 
 
 def test_a_search_is_drawn_taken_and_pinned(session):
