@@ -21,6 +21,7 @@ from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.document import in_turns
 from dashboard.compute.pinned import PinnedSummaries
+from dashboard.compute.responses import TrackResponses
 from dashboard.compute.runner import Runner
 from dashboard.compute.workers import shared_live_store, shared_store
 from dashboard.persistence.snapshot import SessionSnapshot
@@ -40,6 +41,7 @@ from dashboard.views.sidebar import Controls
 from dashboard.views.specification import SpecificationView
 from dashboard.views.status import Status
 from dashboard.views.track import Track
+from dashboard.views.track_response import TrackResponseView
 from dashboard.views.verify import Verify
 
 TITLE = "trackig"
@@ -92,13 +94,19 @@ def build(store=None, live_store=None):
     def show_insertion_gain():
         snapshot.tab = Explore.link_name
 
+    responses = TrackResponses(assessment)
+
+    def show_track():
+        response = TrackResponseView(assessment, responses, snapshot, exchange)
+        return Track(inputs, outcome, response, responses.look)
+
     makers = {
         Explore: partial(Explore, outcome, definition, pins, assessment),
-        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain),
+        Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain, exchange),
         SpecificationView: partial(SpecificationView, assessment, exchange),
         Decide: partial(Decide, inputs, definition, pins, assessment),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
-        Track: partial(Track, inputs, outcome),
+        Track: show_track,
         Learn: partial(Learn, inputs, outcome, definition),
         Verify: partial(Verify, outcome, definition, checker.look),
         Method: Method,

@@ -165,12 +165,12 @@ def _add_solve(commands):
     command.add_argument(
         "--wheel-load",
         metavar="LOAD",
-        help="load of a standing wheel [N] or with a unit; the study's, else 85kN",
+        help="load of a standing wheel [N, or with unit]; the study's, else 85kN",
     )
     command.add_argument(
         "--wheelbase",
         metavar="DISTANCE",
-        help="distance to a second wheel [m] or with a unit; the study's, else none",
+        help="distance to a second wheel [m, or with unit]; the study's, else none",
     )
     command.add_argument("--reference", choices=REFERENCES, help="the study's, else line")
     command.add_argument("--summation", choices=SUMMATIONS, help="the study's, else energy")

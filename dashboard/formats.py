@@ -65,9 +65,9 @@ def deflection_text(statics):
 
 
 def millimetre_text(length):
-    """Return a length [m] in mm: three figures, with its unit."""
+    """Return a length [m] in mm: three figures, and no more than three decimals, with its unit."""
     millimetres = 1e3 * length
-    decimals = max(0, 2 - math.floor(math.log10(millimetres))) if millimetres > 0 else 2
+    decimals = min(max(0, 2 - math.floor(math.log10(millimetres))), 3) if millimetres > 0 else 2
     return f"{millimetres:.{decimals}f} mm"
 
 
@@ -90,7 +90,7 @@ def wheels_text(load):
     return f"two wheels of {each}, {quantity_text(load.wheelbase)} m apart"
 
 
-UNSTATED_WORDS = "the static stiffness of {parts} is not stated, so that the dynamic one stands in"
+UNSTATED_WORDS = "the static stiffness of the {parts} is not stated, so that the dynamic one stands in"
 """Why the rail sinks at least so far."""
 
 
@@ -98,7 +98,7 @@ def unstated_text(statics):
     """Return why a static response is a lower bound, in words; empty where it is none."""
     if not statics.at_least:
         return ""
-    return UNSTATED_WORDS.format(parts=" and ".join(statics.unstated))
+    return UNSTATED_WORDS.format(parts=" and the ".join(statics.unstated))
 
 
 def beyond_text(least, greatest, low, high):

@@ -402,6 +402,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
     box-shadow: 0 0 0 8px color-mix(in srgb, var(--accent) 30%, transparent);
 }}
 .quantity.blank .track {{ visibility: hidden; }}
+.quantity.blank .unit {{ display: none; }}
 .stretches {{
     position: absolute; inset: 7px -1px; border: 1px solid {FAILS}; border-radius: 2px;
     background: repeating-linear-gradient(135deg, {FAILS}a0 0 1.5px, var(--panel-background-color) 1.5px 6px);

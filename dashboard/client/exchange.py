@@ -25,10 +25,11 @@ MOST = {
     "study": studies.MOST_BYTES,
     "specification": band_tables.MOST_BYTES,
     "source": band_tables.MOST_BYTES,
+    "measured": band_tables.MOST_BYTES,
 }
 """Size that a file may have [bytes], by what it is opened for."""
 
-ACCEPTED = {"study": ".toml", "specification": ".csv,.txt,.tsv", "source": ".csv,.txt,.tsv"}
+ACCEPTED = {"study": ".toml"} | dict.fromkeys(("specification", "source", "measured"), ".csv,.txt,.tsv")
 """What the browser's dialog offers, by what a file is opened for."""
 
 REST = 0.3

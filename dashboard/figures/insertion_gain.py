@@ -38,7 +38,7 @@ from dashboard.figures.legends import (
     pinned_entry,
     with_legend,
 )
-from dashboard.figures.swatches import excess_svg, limit_svg, swatch_svg
+from dashboard.figures.swatches import MARKERS, excess_svg, limit_svg, point_svg, swatch_svg
 from trackig_core.levels.specification import LEVEL_TOLERANCE
 
 LEAST_LEVELS = (-28.0, 18.0)
@@ -112,12 +112,17 @@ class InsertionGainFigure:
     limit : bokeh.models.ColumnDataSource
         Named ``limit``: per band its edges, the required ``limit`` [dB], ``before``, that of the band to the
         left, and ``failing``, the level of the design where it exceeds the limit; NaN where there is none.
+    measured : bokeh.models.ColumnDataSource
+        Named ``measured``: per band its ``centre`` [Hz] and levels ``curve_0`` to ``curve_3`` from elsewhere
+        [dB], NaN where there is none.
     """
 
     def __init__(self):
         self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
         self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
+        self.measured = ColumnDataSource(name="measured", data=_measured_columns(()))
+        self._measured, self._points = (), []
         self._drawn, self._limited, self._limit_drawn = (), False, False
         self._levels = AxisEnds((-30.0, 20.0))
         self.model = blank_figure(
@@ -207,7 +212,7 @@ class InsertionGainFigure:
         """Say on the axis which insertion gain is drawn."""
         self.model.yaxis.axis_label = words
 
-    def show(self, current, pinned=(), preset=None, limit=None, alone=False):
+    def show(self, current, pinned=(), preset=None, limit=None, alone=False, measured=()):
         """Draw insertion gain, and behind it that of the preset it departs from and of pinned designs.
 
         Parameters
@@ -222,6 +227,8 @@ class InsertionGainFigure:
             Greatest insertion gain allowed [dB], NaN in bands that have no limit.
         alone : bool
             Whether the pinned designs stand alone: then of the current design nothing is drawn.
+        measured : tuple of trackig_core.levels.MeasuredGain
+            Up to four curves from elsewhere, drawn as points.
         """
         levels, natural = current.levels, current.summary.solution.natural_frequencies
         preset = NO_LEVELS if preset is None or alone else preset.levels
@@ -232,13 +239,14 @@ class InsertionGainFigure:
         self._loaded_track.show(None if alone else natural.loaded_track)
         self._coupled_block.show(None if alone else natural.coupled_block)
         self._show_pinned(pinned)
+        self._show_measured(measured)
         self._name_on_hover(pinned, alone)
         self._list_what_is_drawn(pinned)
         seen = [
             NO_LEVELS if alone else levels,
             preset,
             self.limit.data["limit"],
-            *(each.levels for each in pinned),
+            *(each.levels for each in (*pinned, *measured)),
             LEAST_LEVELS,
         ]
         every = np.concatenate(seen)
@@ -259,6 +267,27 @@ class InsertionGainFigure:
         self.pins.data = pin_columns([each.levels for each in pinned])
         self._pinned.show(pinned)
 
+    def _show_measured(self, measured):
+        if are_the_same(measured, self._measured):
+            return
+        self._measured = measured
+        self.measured.data = _measured_columns(measured)
+        for place in range(len(self._points), len(measured)):
+            self._points.append(
+                self.model.scatter(
+                    x="centre",
+                    y=f"curve_{place}",
+                    source=self.measured,
+                    marker=MEASURED_MARKERS[place],
+                    size=theme.DOT_SIZE + 2,
+                    line_color=theme.THEORY,
+                    line_width=2,
+                    fill_color=None,
+                )
+            )
+        for place, points in enumerate(self._points):
+            points.visible = place < len(measured)
+
     def _name_on_hover(self, pinned, alone):
         """Say what is drawn when the pointer rests on a band."""
         tooltips = ALONE_TOOLTIPS if alone else TOOLTIPS
@@ -275,13 +304,26 @@ class InsertionGainFigure:
             (np.isfinite(limit["limit"]).any(), REQUIRED),
             (np.isfinite(limit["failing"]).any(), EXCEEDS),
         ]
-        self.legend.show([*(entry for there, entry in drawn if there), *map(pinned_entry, pinned)])
+        points = zip(self._measured, MEASURED_MARKERS, strict=False)
+        self.legend.show(
+            [
+                *(entry for there, entry in drawn if there),
+                *map(pinned_entry, pinned),
+                *((f"{MEASURED} {each.name}", point_svg(shape, theme.THEORY)) for each, shape in points),
+            ]
+        )
 
 
 THIS_DESIGN = ("this design", swatch_svg(theme.THIS_DESIGN, dot=True))
 AS_IN_TABLE_1 = ("as in Table 1", swatch_svg(theme.PRESET_GHOST, theme.SECOND_DASH))
 REQUIRED, EXCEEDS = ("required maximum", limit_svg()), ("exceeds it", excess_svg())
 """What the legend says beside the names of pinned designs."""
+
+MEASURED = "measured:"
+"""What the legend says before the name of a curve from elsewhere, so that nobody takes it for a limit."""
+
+MEASURED_MARKERS = tuple(MARKERS)
+"""Markers of curves from elsewhere, in their order."""
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
 
@@ -315,6 +357,12 @@ def pin_columns(levels):
     missing = theme.MOST_PINNED - len(levels)
     columns = {f"pin_{place}": each for place, each in enumerate([*levels, *[NO_LEVELS] * missing])}
     return {"label": list(tig.BAND_LABELS), "centre": tig.BAND_CENTRES, **columns}
+
+
+def _measured_columns(measured):
+    missing = len(MEASURED_MARKERS) - len(measured)
+    levels = [*(each.levels for each in measured), *[NO_LEVELS] * missing]
+    return {"centre": tig.BAND_CENTRES} | {f"curve_{place}": each for place, each in enumerate(levels)}
 
 
 def _limit_columns(limit, levels):

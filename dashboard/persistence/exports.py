@@ -84,6 +84,61 @@ def force_csv(results, heading):
     return _written([*heading.lines, FORCE_REMARK, *remarks], header, zip(*columns, strict=True))
 
 
+def point_response_csv(responses, heading):
+    """Return point receptance over frequency as CSV.
+
+    Parameters
+    ----------
+    responses : iterable of (str, trackig_core.analysis.TrackResponse)
+        Name and response of each design, all over the same frequencies.
+    heading : Heading
+        What the file says of itself.
+
+    Returns
+    -------
+    str
+        A column ``frequency_hz``, and per design real and imaginary part of the receptance over a support and
+        half-way between two, m/N, to six figures.
+    """
+    responses = list(responses)
+    header, columns = ["frequency_hz"], [[f"{each:.6g}" for each in responses[0][1].frequency]]
+    for name, response in responses:
+        for place in ("support", "midspan"):
+            receptance = getattr(response, place)
+            for part in ("real", "imag"):
+                header.append(f"receptance_{place}_{part}_m_per_N {name}")
+                columns.append([f"{each:.6g}" for each in getattr(receptance, part)])
+    return _written([*heading.track_lines, RESPONSE_REMARK], header, zip(*columns, strict=True))
+
+
+def decay_rate_csv(responses, heading):
+    """Return track decay rate per band as CSV.
+
+    Parameters
+    ----------
+    responses : iterable of (str, trackig_core.analysis.TrackResponse)
+        Name and response of each design.
+    heading : Heading
+        What the file says of itself.
+
+    Returns
+    -------
+    str
+        A column of bands, ``frequency_hz``, and per design three columns, dB/m with four decimals: the sum of
+        EN 15461 over a support and half-way between two, and the rate of the longest-lived wave.
+    """
+    responses = list(responses)
+    header, columns = ["frequency_hz"], [responses[0][1].bands.labels]
+    for name, response in responses:
+        for field in ("support_decay_rate", "midspan_decay_rate", "longest_wave"):
+            header.append(f"{field}_db_per_m {name}")
+            columns.append([f"{each:.4f}" for each in getattr(response, field)])
+    return _written([*heading.track_lines, DECAY_REMARK], header, zip(*columns, strict=True))
+
+
+RESPONSE_REMARK = "point receptance of the rail, the wheel away, 24 elements a bay"
+DECAY_REMARK = f"track decay rate, the sum of EN 15461:2008+A1:2010 carried to infinity; {RESPONSE_REMARK}"
+
 FORCE_REMARK = "force into the ground after a sudden squeeze of the contact spring, low-passed at 600 Hz"
 
 

@@ -46,7 +46,7 @@ class SessionSnapshot(param.Parameterized):
         self.inputs.param.watch(callback, list(link.INPUTS))
         self.definition.param.watch(callback, ["summation", "reference"])
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
-        self.assessment.param.watch(callback, ["specification", "source", "title"])
+        self.assessment.param.watch(callback, ["specification", "source", "measured", "title"])
         self.param.watch(callback, "tab")
 
     @property
@@ -74,6 +74,7 @@ class SessionSnapshot(param.Parameterized):
             self.assessment.specification,
             self.assessment.source,
             self.assessment.title,
+            self.assessment.measured,
         )
 
     def follow(self, arguments):
@@ -116,7 +117,10 @@ class SessionSnapshot(param.Parameterized):
         with self.steps.as_one():
             self._set(opened.values, opened.pins, opened.base, opened.view)
             self.assessment.param.update(
-                specification=opened.specification, source=opened.source, title=opened.name
+                specification=opened.specification,
+                source=opened.source,
+                measured=opened.measured,
+                title=opened.name,
             )
 
     def _set(self, values, pins, base, view):

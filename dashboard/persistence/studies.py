@@ -37,6 +37,8 @@ class Opened:
         Levels on the reference track.
     name : str
         What the study is called.
+    measured : tuple of trackig_core.levels.MeasuredGain
+        Insertion gain from elsewhere.
     """
 
     values: dict
@@ -46,9 +48,19 @@ class Opened:
     specification: tig.Specification | None
     source: tig.SourceSpectrum | None
     name: str
+    measured: tuple[tig.levels.MeasuredGain, ...] = ()
 
 
-def to_study(values, view=None, pins=(), base=None, specification=None, source=None, name=tig.Study.name):
+def to_study(
+    values,
+    view=None,
+    pins=(),
+    base=None,
+    specification=None,
+    source=None,
+    name=tig.Study.name,
+    measured=(),
+):
     """Return a study of what the dashboard holds.
 
     Parameters
@@ -67,6 +79,8 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         Levels on the reference track.
     name : str
         What the study is called.
+    measured : iterable of trackig_core.levels.MeasuredGain
+        Insertion gain from elsewhere.
 
     Returns
     -------
@@ -89,6 +103,7 @@ def to_study(values, view=None, pins=(), base=None, specification=None, source=N
         name=name,
         preset=values["preset"],
         load=load_of(values),
+        measured=measured,
     )
 
 
@@ -124,6 +139,7 @@ def from_study(study):
         specification=study.specification,
         source=study.source,
         name=study.name,
+        measured=study.measured,
     )
 
 

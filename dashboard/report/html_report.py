@@ -188,18 +188,10 @@ def is_told(design, name):
 
 STATIC_ROWS = (
     ("Rail deflection, over a support", formats.deflection_text),
-    (
-        "Rail deflection, at the worst place",
-        lambda statics: formats.millimetre_text(statics.largest_rail_deflection),
-    ),
+    ("at the worst place", lambda statics: formats.millimetre_text(statics.largest_rail_deflection)),
     ("Seat load", lambda statics: formats.load_text(statics.largest_seat_load)),
     ("Compression of the pad", lambda statics: formats.millimetre_text(statics.pad_compression)),
-    (
-        "Compression of the boot",
-        lambda statics: (
-            "–" if statics.boot_compression is None else formats.millimetre_text(statics.boot_compression)
-        ),
-    ),
+    ("Compression of the boot", lambda statics: _length_text(statics.boot_compression)),
     ("Uplift", lambda statics: formats.millimetre_text(statics.largest_uplift)),
 )
 """Name of each row of the table of statics, and what stands in it."""
@@ -208,6 +200,10 @@ STATIC_ROWS = (
 def _statics(results):
     """Return rows of (name, cells)."""
     return [(name, [take(each.statics) for each in results]) for name, take in STATIC_ROWS]
+
+
+def _length_text(length):
+    return "–" if length is None else formats.millimetre_text(length)
 
 
 def _bounds(results):

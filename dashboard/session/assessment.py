@@ -38,6 +38,10 @@ class Assessment(param.Parameterized):
 
     specification = param.ClassSelector(class_=tig.Specification, default=None, allow_None=True)
     source = param.ClassSelector(class_=tig.SourceSpectrum, default=None, allow_None=True)
+    measured = param.Parameter(
+        default=(),
+        doc="A tuple of trackig_core.levels.MeasuredGain: curves from elsewhere, which demand nothing.",
+    )
     title = param.String(default=tig.Study.name, doc="What the study is called.")
     results = param.Parameter(
         default=(), doc="A tuple of DesignResult: the current design, then every pinned one."

@@ -68,6 +68,11 @@ class Heading:
         return f"{self.date.day} {self.date:%B %Y}"
 
     @property
+    def track_lines(self):
+        """What of it concerns a track without its wheel, a line of text each."""
+        return tuple(each for each in self.lines if not each.startswith(("insertion gain:", "solution:")))
+
+    @property
     def lines(self):
         """All of it, a line of text each."""
         return (

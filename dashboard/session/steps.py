@@ -38,7 +38,7 @@ class Steps(param.Parameterized):
         self._kept = (
             (definition, ("reference", "summation")),
             (pins, ("pinned", "base", "alone")),
-            (assessment, ("specification", "source", "title")),
+            (assessment, ("specification", "source", "measured", "title")),
         )
         self._held = False
         self._history = History(self._state())

@@ -4,6 +4,7 @@ What is given is taken as a whole, and what was set aside is said; or not at all
 where it is at fault, and what was there stays.
 """
 
+import dataclasses
 import html
 from pathlib import Path
 from typing import ClassVar
@@ -122,7 +123,7 @@ class BandEditor(Viewer):
         except tig.BandTableError as error:
             self._tell(f"Not taken: {error}.", pane=message)
             return False
-        self._keep(reading.table)
+        self._keep(self._with_bands(reading.table.points, reading.table.name))
         notes = [*reading.notes, *self.on_read(reading)]
         if notes:
             self._tell(f"Taken; {'; '.join(notes)}.", "status", message)
@@ -165,7 +166,13 @@ class BandEditor(Viewer):
         points = {**dict(self.table.points if self.table is not None else ()), **levels}
         points = [(frequency, level) for frequency, level in points.items() if level is not None]
         name = self.table.name if self.table is not None else self._kind.name
-        self._keep(self._kind(points, name) if points else None)
+        self._keep(self._with_bands(points, name) if points else None)
+
+    def _with_bands(self, points, name):
+        """Return the table with other bands; what else it says stays, such as a limit of deflection."""
+        if self.table is None:
+            return self._kind(points, name)
+        return dataclasses.replace(self.table, points=points, name=name)
 
     def _keep(self, table):
         self._tell("")

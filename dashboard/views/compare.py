@@ -15,6 +15,7 @@ from dashboard.session.pins import PinError
 from dashboard.views.comparison_table import table_html
 from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption, gain_axis
 from dashboard.views.likeness import Likeness
+from dashboard.views.measured_gains import MeasuredGains
 from dashboard.views.pin_list import PinList
 from dashboard.views.tab import Tab
 
@@ -37,16 +38,19 @@ class Compare(Tab):
         The results of all designs.
     on_figure_2 : callable
         Called when the paper's four tracks alone are to be seen in the plot of insertion gain.
+    exchange : Exchange, optional
+        Opens files of insertion gain from elsewhere.
     """
 
     title = "Compare"
     link_name = "compare"
 
-    def __init__(self, inputs, pins, definition, assessment, on_figure_2):
+    def __init__(self, inputs, pins, definition, assessment, on_figure_2, exchange=None):
         super().__init__()
         self._pins, self._definition, self._assessment = pins, definition, assessment
         self._on_figure_2 = on_figure_2
         self.list, self.likeness = PinList(inputs, pins), Likeness(pins, assessment)
+        self.measured = MeasuredGains(assessment, exchange)
         self.table_1 = pmui.Button(label="Pin Table 1", icon="push_pin", on_click=self._pin_table_1, **BUTTON)
         self.figure_2 = pmui.Button(
             label="Paper's Figure 2", icon="show_chart", on_click=self._show_figure_2, **BUTTON
@@ -66,7 +70,7 @@ class Compare(Tab):
         self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[theme.TABLE_CSS], margin=0)
         self._show_later = NextTick(self._show)
         self.bands.param.watch(self._show_later, "value")
-        assessment.param.watch(self._show_later, ["results", "base"])
+        assessment.param.watch(self._show_later, ["results", "base", "measured"])
         pins.param.watch(self._offer_bases, ["pinned", "base"])
         self._offer_bases()
 
@@ -121,6 +125,7 @@ class Compare(Tab):
             [each for each in assessment.results if each.shown or each is base],
             base,
             [band for band, label in enumerate(tig.BAND_LABELS) if label in self.bands.value],
+            assessment.measured,
         )
 
     def build(self):
@@ -153,6 +158,10 @@ class Compare(Tab):
             pmui.Grid(pinned, size=12),
             pmui.Grid(gains, size=12),
             pmui.Grid(difference, size=12),
+            pmui.Grid(
+                pmui.Paper(caption("Measured insertion gain", MEASURED_WORDS), self.measured, **PAPER),
+                size=12,
+            ),
             pmui.Grid(table, size=12),
             container=True,
             spacing=1,
@@ -160,6 +169,8 @@ class Compare(Tab):
             margin=(0, 8, 8, 8),
         )
 
+
+MEASURED_WORDS = "from site, from a paper, from another program: points in Explore, differences in the table"
 
 BASE_WIDTH = 300
 

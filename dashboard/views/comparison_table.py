@@ -5,6 +5,8 @@ Names come from users, so every text is escaped.
 
 import html
 
+import numpy as np
+
 import trackig_core as tig
 from dashboard import formats
 from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, EXTRAS, LOAD, six_figures
@@ -15,7 +17,7 @@ from dashboard.session.inputs import DesignInputs, display_values
 NONE = "–"
 
 
-def table_html(results, base, bands):
+def table_html(results, base, bands, measured=()):
     """Return the table.
 
     Parameters
@@ -24,8 +26,10 @@ def table_html(results, base, bands):
         The designs, in order; those without a solution have dashes for what it would say.
     base : DesignResult
         The one from which differences are taken.
-    bands : iterable of int
+    bands : sequence of int
         Which bands are listed.
+    measured : iterable of trackig_core.levels.MeasuredGain
+        Curves from elsewhere; by how much each design exceeds them is listed.
 
     Returns
     -------
@@ -38,6 +42,10 @@ def table_html(results, base, bands):
         ("Natural frequencies, Hz", _frequency_rows(results, base)),
         (_static_title(results), _static_rows(results, base)),
         ("Insertion gain, dB", _band_rows(results, base, bands)),
+        *(
+            (f"Computed less measured: {each.name}, dB", _measured_rows(results, each, bands))
+            for each in measured
+        ),
     )
     body = "".join(_group(title, rows, len(results)) for title, rows in groups)
     return (
@@ -113,6 +121,20 @@ def _frequency_rows(results, base):
 def _frequency(result, name):
     """Return a natural frequency [Hz], or None where there is no solution or no such frequency."""
     return None if result.summary is None else getattr(result.summary.solution.natural_frequencies, name)
+
+
+def _measured_rows(results, curve, bands):
+    """Yield differences from a curve from elsewhere: of all its bands, then of those listed that it has."""
+    differences = [None if each.levels is None else curve.difference(each.levels) for each in results]
+    yield "root mean square", [(NONE if each is None else f"{_rms(each):.1f}", "") for each in differences]
+    for band in bands:
+        if np.isfinite(curve.levels[band]):
+            texts = [NONE if each is None else formats.signed_text(each[band]) for each in differences]
+            yield f"{tig.BAND_LABELS[band]} Hz", [(text, "") for text in texts]
+
+
+def _rms(difference):
+    return np.sqrt(np.nanmean(difference**2))
 
 
 def _static_title(results):

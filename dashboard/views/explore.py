@@ -68,7 +68,7 @@ class Explore(Tab):
         outcome.param.watch(self._dim, ["problem", "progress", "summary"])
         show = NextTick(self._show)
         # results follow the definition and the specification too
-        assessment.param.watch(show, ["results", "preset"])
+        assessment.param.watch(show, ["results", "preset", "measured"])
         pins.param.watch(show, "alone")
         self._show()
         self._dim()
@@ -107,6 +107,7 @@ class Explore(Tab):
             preset=self._assessment.preset,
             limit=None if specification is None else specification.levels,
             alone=self._pins.alone,
+            measured=self._assessment.measured,
         )
 
     def _dim(self, *_):

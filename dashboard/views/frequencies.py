@@ -127,9 +127,9 @@ def statics_html(statics):
     load = formats.load_text(statics.wheel_load)
     wheel = f"a wheel of {load}" if statics.wheelbase is None else f"the first of two wheels of {load}"
     reason = formats.unstated_text(statics)
-    sinks = f"The rail sinks so far under {wheel}, over a support."
+    sinks = f"Of the rail under {wheel}, over a support."
     if reason:
-        sinks += f" At least: {reason}. Under Statics in the sidebar it can be stated."
+        sinks += f" At least: {reason}; state it under Statics."
     worst = formats.millimetre_text(statics.largest_rail_deflection)
     seat = (
         f"The most that a support carries: {statics.seat_load_share:.0%} of a wheel's load. Between supports "
@@ -146,7 +146,10 @@ def statics_html(statics):
 def _figure(key, name, before, figure, words):
     """Return one static figure: large, what bounds it in small letters before it, then what it is."""
     small = f"<small>{before}</small> " if before else ""
-    return f'<section class="main {key}"><h3>{name}</h3><p class="figure">{small}{figure}</p><p>{words}</p></section>'
+    return (
+        f'<section class="main {key}"><h3>{name}</h3><p class="figure">{small}{figure}</p>'
+        f"<p>{words}</p></section>"
+    )
 
 
 def _card(key, computed, observed, name, words):

@@ -7,6 +7,7 @@ import panel_material_ui as pmui
 from dashboard import formats, theme
 from dashboard.views.band_editor import BandEditor
 from dashboard.views.components import PAPER, caption
+from dashboard.views.deflection_limit import DeflectionLimit
 from dashboard.views.tab import Tab
 from dashboard.views.verdict import verdicts_html
 
@@ -39,6 +40,7 @@ class SpecificationView(Tab):
             "Greatest insertion gain allowed, and the designs",
         )
         self.editor.on_read = self._note_reading
+        self.deflection = DeflectionLimit(assessment)
         self._says_loss, self._answered = False, False
         turn = pmui.Button(label="Turn the sign", size="small", variant="contained", on_click=self._turn)
         keep = pmui.Button(label="Keep as insertion gain", size="small", variant="text", on_click=self._keep)
@@ -64,6 +66,7 @@ class SpecificationView(Tab):
             return
         self.verdict.object = verdicts_html(self._assessment.results)
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
+        self.deflection.show()
 
     def _note_reading(self, reading):
         """Ask again of a table that was read, and return what to say of it."""
@@ -95,6 +98,7 @@ class SpecificationView(Tab):
         return pmui.Column(
             pmui.Paper(caption("Verdict", WORDS), self.verdict, **PAPER),
             pmui.Paper(caption("Required insertion gain", ""), self.question, self.editor, **PAPER),
+            pmui.Paper(caption("Rail deflection", DEFLECTION_WORDS), self.deflection, **PAPER),
             sizing_mode="stretch_width",
             margin=(0, 8, 8, 8),
         )
@@ -107,6 +111,8 @@ QUESTION = (
 )
 
 NOTE = "the limits look like an insertion loss: answer the question above the table"
+
+DEFLECTION_WORDS = "static, over a support, under one wheel; part of the verdict like any band"
 
 WORDS = "bands without a limit are not assessed; a margin of exactly 0 dB complies"
 

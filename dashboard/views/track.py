@@ -15,7 +15,7 @@ from dashboard.views.tab import Tab
 
 
 class Track(Tab):
-    """The drawing, and the natural frequencies beside it.
+    """The drawing, the natural frequencies beside it, and the track's response below.
 
     Parameters
     ----------
@@ -23,14 +23,18 @@ class Track(Tab):
         What is drawn.
     outcome : Outcome
         Whose natural frequencies are shown.
+    response : TrackResponseView
+        How the track answers a hammer.
+    on_look : callable
+        Called with whether anybody looks: only then are responses computed.
     """
 
     title = "Track"
     link_name = "track"
 
-    def __init__(self, inputs, outcome):
+    def __init__(self, inputs, outcome, response, on_look):
         super().__init__()
-        self._inputs = inputs
+        self._inputs, self.response, self._on_look = inputs, response, on_look
         self.drawing = pn.pane.HTML(
             "", sizing_mode="stretch_width", stylesheets=[theme.DRAWING_CSS], margin=(0, 12, 8, 12)
         )
@@ -40,6 +44,7 @@ class Track(Tab):
     def refresh(self):
         """Draw the track as it stands."""
         self.frequencies.look(self.in_sight)
+        self._on_look(self.in_sight)
         self._draw()
 
     def _draw(self, *_):
@@ -53,6 +58,7 @@ class Track(Tab):
         return pmui.Grid(
             pmui.Grid(drawing, size={"xs": 12, "lg": 8}),
             pmui.Grid(frequencies, size={"xs": 12, "lg": 4}),
+            pmui.Grid(self.response, size=12),
             container=True,
             spacing=1,
             sizing_mode="stretch_width",

@@ -20,6 +20,7 @@ from dashboard.figures.verification import (
     TimeStepFigure,
 )
 from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.idealisations import IdealisationsView
 from dashboard.views.tab import Tab
 
 FINE = tig.Lattice(elements_per_bay=24)
@@ -55,6 +56,7 @@ class Verify(Tab):
         super().__init__()
         self._on_look = on_look
         self._outcome, self._definition = outcome, definition
+        self.idealisations = IdealisationsView(outcome, definition)
         self.comparison = ComparisonFigure()
         self.difference = DifferenceFigure(self.comparison.bands)
         self.receptance = ReceptanceFigure()
@@ -94,6 +96,7 @@ class Verify(Tab):
     def refresh(self):
         """Have the solution checked while the tab is in sight."""
         self._on_look(self.in_sight)
+        self.idealisations.look(self.in_sight)
 
     def _show(self, *_):
         self._show_run()
@@ -217,7 +220,7 @@ class Verify(Tab):
         convergence = _pair("Convergence", time_step, element, self.words["convergence"])
         damping = _pair("Memory of the damping", stiffness, loss_factor, self.words["damping"])
         return pmui.Grid(
-            *(pmui.Grid(each, size=12) for each in (run, peer, convergence, damping)),
+            *(pmui.Grid(each, size=12) for each in (run, peer, convergence, damping, self.idealisations)),
             container=True,
             spacing=1,
             sizing_mode="stretch_width",

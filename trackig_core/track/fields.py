@@ -108,6 +108,7 @@ RANGES = {
         *GROUND_FIELDS,
         *AXLE_FIELDS,
         *_HALF_SPACE_FIELDS,
+        WHEELBASE,
     )
 }
 """Lowest and highest value, and unit, of each number by name."""

@@ -156,7 +156,7 @@ class Quantity {
     this.box = element("input", {
       type: "text", inputMode: "decimal", maxLength: 40, autocomplete: "off", spellcheck: false,
       "aria-label": `${field.labelled}: type a number`, "aria-describedby": `advice-${field.name}`,
-      placeholder: field.blank,
+      placeholder: field.blank ?? "",
     })
     this.fill = element("div", {className: "fill"})
     this.mark = element("div", {className: "mark", hidden: true})

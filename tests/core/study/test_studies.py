@@ -352,6 +352,22 @@ def test_a_pinned_design_is_a_design():
         tig.PinnedDesign("Slab", "slab-track")
 
 
+@pytest.mark.parametrize("load", [tig.study.StaticLoad(112.5e3), tig.study.StaticLoad(85e3, 2.6)])
+def test_the_standing_wheels_are_kept(load):
+    study = tig.Study(tig.PRESETS["slab-track"], load=load)
+    assert tig.Study.from_toml(study.to_toml()) == study
+    assert "[load]" not in tig.Study(tig.PRESETS["slab-track"]).to_toml()
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("wheel_load_N", 10.0), ("wheelbase_m", 0.1), ("wheelbase_m", "true")]
+)
+def test_a_standing_wheel_that_cannot_be_is_named_by_its_key(key, value):
+    text = tig.Study(tig.PRESETS["slab-track"]).to_toml() + f"\n[load]\n{key} = {value}\n"
+    with pytest.raises(tig.StudyError, match=rf"load\.{key}: .*give a number from"):
+        tig.Study.from_toml(text)
+
+
 def test_vehicle_axles_and_ground_are_kept():
     surrounded = BLOCK.replace(
         suspension=tig.VEHICLES["metro"].suspension,

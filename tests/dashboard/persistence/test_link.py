@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from dashboard.fields import INPUTS, NUMBERS, six_figures
+from dashboard.fields import EXTRA_FIELDS, EXTRAS, INPUTS, NUMBERS, six_figures
 from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
 from dashboard.session.inputs import DesignInputs, GainDefinition, check_values, design_of, preset_values
 from dashboard.session.pins import Pins
@@ -46,12 +46,18 @@ def pin(name, colour, values, shown=True):
     return tig.PinnedDesign(name, design_of(values), colour, shown, values["preset"])
 
 
+def extra(name):
+    """Return any value of an extra number: nothing too, where there may be none."""
+    return st.one_of(st.just(EXTRA_FIELDS[name].default), number(name))
+
+
 any_values = st.fixed_dictionaries(
     {
         "preset": st.sampled_from([*tig.PRESETS]),
         "two_stage": st.booleans(),
         "rail": st.sampled_from([*tig.RAILS]),
         **{name: number(name) for name in NUMBERS},
+        **{name: extra(name) for name in EXTRAS},
     }
 )
 any_view = st.fixed_dictionaries(
@@ -87,7 +93,22 @@ def test_a_link_reopens_the_same_design(values):
 
 
 def test_the_whole_design_is_in_a_link_even_if_it_is_the_opening_one():
-    assert {*INPUTS} <= arguments(encode(OPENING)).keys()
+    assert {*INPUTS} - {*EXTRAS} <= arguments(encode(OPENING)).keys()
+
+
+def test_extra_numbers_stand_in_a_link_only_where_they_are_set():
+    assert not {*EXTRAS} & arguments(encode(OPENING)).keys()
+    set_ = OPENING | {"wheelbase": 2.5, "stiffness_frequency": 10.0}
+    assert {*EXTRAS} & arguments(encode(set_)).keys() == {"wheelbase", "stiffness_frequency"}
+
+
+@pytest.mark.parametrize(
+    "extras", ["x", "pad_static_stiffness", "pad_static_stiffness=", "wheel_load=9", ";;=1"]
+)
+def test_extra_numbers_of_a_pin_that_cannot_be_read_change_nothing(extras):
+    (kept,) = opened(pin=pin_text(shown=f"1;{extras}")).pins
+    assert kept.design == design_of(OPENING)
+    assert kept.shown
 
 
 def test_a_kept_link_opens_the_same_study_for_ever():
@@ -105,6 +126,7 @@ def test_a_kept_link_opens_the_same_study_for_ever():
         "fastener_spacing": 0.65,
         "wheel_mass": 900.0,
         "contact_stiffness": 1300.0,
+        **{name: field.default for name, field in EXTRA_FIELDS.items()},
     }
     assert link.view == {"summation": "coherent", "reference": "rigid"}
     (opened_pin,) = link.pins
@@ -225,9 +247,8 @@ def test_a_newer_link_is_opened_as_far_as_it_is_known():
 
 
 def pin_text(colour="0", shown="1", name="Pin", **values):
-    return "~".join(
-        (colour, shown, *(str(v) for v in {**OPENING, "two_stage": 1, **values}.values()), name)
-    ).encode()
+    every = {key: each for key, each in {**OPENING, "two_stage": 1, **values}.items() if key not in EXTRAS}
+    return "~".join((colour, shown, *map(str, every.values()), name)).encode()
 
 
 def test_pins_that_cannot_be_read_are_left_out_and_the_base_follows():

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from dashboard.fields import NUMBERS, OPENING_PRESET, SECOND_STAGE, six_figures
+from dashboard.fields import EXTRA_FIELDS, EXTRAS, NUMBERS, OPENING_PRESET, SECOND_STAGE, six_figures
 from dashboard.persistence.studies import from_study, to_study
 from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
 from dashboard.session.pins import Pins
@@ -30,12 +30,18 @@ def as_kept(values):
     return values | {name: preset_values(values["preset"])[name] for name in SECOND_STAGE}
 
 
+def extra(name):
+    """Return any value of an extra number: nothing too, where there may be none."""
+    return st.one_of(st.just(EXTRA_FIELDS[name].default), number(name))
+
+
 any_values = st.fixed_dictionaries(
     {
         "preset": st.sampled_from([*tig.PRESETS]),
         "two_stage": st.booleans(),
         "rail": st.sampled_from([*tig.RAILS]),
         **{name: number(name) for name in NUMBERS},
+        **{name: extra(name) for name in EXTRAS},
     }
 ).map(as_kept)
 any_view = st.fixed_dictionaries(

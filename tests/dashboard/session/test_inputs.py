@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 import trackig_core as tig
-from dashboard.fields import INPUTS, NUMBERS, PHYSICAL, PRESET_LABELS, to_display, to_si
+from dashboard.fields import INPUTS, LOAD, NUMBERS, PHYSICAL, PRESET_LABELS, to_display, to_si
 from dashboard.session.inputs import DesignInputs, InputError, design_of, preset_values, read_input
 from dashboard.session.results import SolutionSummary
 
@@ -165,7 +165,7 @@ def test_values_out_of_bounds_change_nothing():
     with pytest.raises(ValueError, match="block_mass"):
         inputs.take({**before, "pad_stiffness": 200, "block_mass": 9999})
     assert inputs.to_values() == before
-    assert set(before) == {"preset", *PHYSICAL}
+    assert set(before) == {"preset", *PHYSICAL, *LOAD}
 
 
 def test_labels_carry_units():
@@ -243,3 +243,41 @@ def test_a_gesture_is_known_while_its_change_is_noted():
     inputs.take_given({"block_mass": 60}, gesture=3)
     inputs.block_mass = 70
     assert seen == [3, None]
+
+
+@pytest.mark.parametrize("text", ["1.25x", "x 1.25", "1,25 ×", "× 1.25"])
+def test_a_static_stiffness_may_be_given_by_its_ratio(text):
+    inputs = DesignInputs()
+    inputs.take_given({"pad_static_stiffness": text})
+    assert inputs.pad_static_stiffness == 80
+    assert inputs.to_design().pad_static_stiffness == 80e6
+
+
+@pytest.mark.parametrize("text", ["0x", "-2x", "x", "1.25y", "1e9x"])
+def test_what_is_no_ratio_is_refused(text):
+    inputs = DesignInputs()
+    inputs.take_given({"pad_static_stiffness": text})
+    assert inputs.pad_static_stiffness is None
+    assert set(inputs.refused) == {"pad_static_stiffness"}
+
+
+@pytest.mark.parametrize("nothing", [None, "", "  "])
+def test_an_empty_box_takes_an_extra_number_back(nothing):
+    inputs = DesignInputs()
+    before = inputs.to_design()
+    inputs.take_given({"boot_static_stiffness": "20", "wheelbase": 2.5, "wheel_load": "100 kN"})
+    assert inputs.to_load() == tig.study.StaticLoad(100e3, 2.5)
+    assert inputs.to_design() == before.replace(boot_static_stiffness=20e6)
+    assert inputs.modified
+    inputs.take_given({"boot_static_stiffness": nothing, "wheelbase": nothing, "wheel_load": nothing})
+    assert inputs.to_design() == before
+    assert inputs.to_load().wheelbase is None
+    assert set(inputs.refused) == {"wheel_load"}
+
+
+def test_the_standing_wheels_are_no_part_of_a_design():
+    inputs = DesignInputs()
+    inputs.take_given({"wheel_load": 100, "wheelbase": 2.5})
+    assert not inputs.modified
+    inputs.revert()
+    assert inputs.wheel_load == 100

@@ -19,6 +19,7 @@ from dashboard.session.steps import Steps
 from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
 from dashboard.views.compare import Compare
+from dashboard.views.comparison_table import table_html
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.likeness import Likeness, likeness_words
 from dashboard.views.track import Track
@@ -280,7 +281,7 @@ def test_a_ninth_pin_is_refused_and_its_name_kept(bar):
 
 def test_the_drawing_follows_the_sliders_while_it_is_in_sight(summary):
     inputs = DesignInputs()
-    track = Track(inputs, Outcome(summary=summary("slab-track")))
+    track = Track(inputs, Outcome(summary=summary("slab-track")), None, lambda _: None)
     assert track.drawing.object == ""
     track.look(active=True)
     inputs.block_mass = 222.0
@@ -343,3 +344,21 @@ def test_insertion_gain_itself_is_drawn_beside_its_differences(session):
     assert gains.model.y_range.start <= min(data["pin_8"].min(), data["pin_1"].min())
     session.definition.summation = "coherent"
     assert gains.model.yaxis[0].axis_label == "IG, dB (coherent / line)"
+
+
+def test_statics_stand_side_by_side_and_only_extra_numbers_that_are_set():
+    block = tig.PRESETS["booted-block-low-mass"]
+    stated = block.replace(pad_static_stiffness=70e6, boot_static_stiffness=20e6, stiffness_frequency=10.0)
+    load = tig.study.StaticLoad(100e3)
+    results = [
+        DesignResult(tig.PinnedDesign("one", design), statics=load.response(design))
+        for design in (block, stated)
+    ]
+    text = table_html(results, results[0], [])
+    first, second = (1e3 * each.statics.rail_deflection for each in results)
+    assert "Under one wheel of 100 kN" in text
+    assert f"<td>≥ {first:.2f}</td>" in text
+    assert f'<td>{second:.2f}<span class="difference">+{second - first:.2f}</span></td>' in text
+    assert "Stiffness stated at, Hz" in text
+    assert "Pad static stiffness" in text
+    assert "Pad static stiffness" not in table_html(results[:1], results[0], [])

@@ -14,7 +14,7 @@ from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome, SolutionSummary
 from dashboard.views.explore import Explore
-from dashboard.views.frequencies import Frequencies, frequencies_html
+from dashboard.views.frequencies import Frequencies, frequencies_html, statics_html
 from dashboard.views.status import Status, status_html, status_words
 
 
@@ -254,3 +254,22 @@ def test_the_papers_figure_2_is_four_curves_and_nothing_else(explore, outcome, s
     assert not pins.alone
     names = list(view.insertion_gain.legend.listed)
     assert names[0] == "this design"
+
+
+def test_statics_stand_beside_the_natural_frequencies(session):
+    session.show("booted-block-low-mass")
+    view = Frequencies(session.outcome, session.assessment)
+    sinks = tig.static_response(session.assessment.current.design)
+    assert f"<small>at least</small> {1e3 * sinks.rail_deflection:.2f} mm" in view.pane.object
+    assert "the static stiffness of the pad and the boot is not stated" in view.pane.object
+    session.inputs.wheel_load = 112.5
+    heavier = tig.static_response(session.assessment.current.design, 112.5e3)
+    assert f"{1e3 * heavier.rail_deflection:.2f} mm" in view.pane.object
+    assert f"{1e-3 * heavier.largest_seat_load:.3g} kN" in view.pane.object
+
+
+def test_a_stated_static_stiffness_leaves_no_bound():
+    stated = tig.PRESETS["slab-track"].replace(pad_static_stiffness=500e6)
+    text = statics_html(tig.static_response(stated, 85e3, 2.5))
+    assert "<small>" not in text
+    assert "two wheels of 85 kN" in text

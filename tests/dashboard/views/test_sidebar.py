@@ -3,7 +3,7 @@
 import pytest
 
 import trackig_core as tig
-from dashboard.fields import CLOSED_GROUPS, FIELDS, NUMBERS, SECOND_STAGE
+from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, NUMBERS, SECOND_STAGE
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
 from dashboard.views.sidebar import Controls
@@ -36,8 +36,8 @@ def give(panel, number=1, **values):
 
 def test_every_field_has_a_row_in_its_group(panel):
     rows = {row["name"]: (group, row) for group in panel.groups for row in group["fields"] if "name" in row}
-    assert set(rows) == {*FIELDS, "preset", "two_stage", "rail"}
-    for name, field in FIELDS.items():
+    assert set(rows) == {*EVERY_FIELD, "preset", "two_stage", "rail"}
+    for name, field in EVERY_FIELD.items():
         group, row = rows[name]
         assert group["title"] == field.group
         assert group["closed"] == (field.group in CLOSED_GROUPS)

@@ -1,0 +1,73 @@
+"""The solution on other assumptions: computed while somebody looks, drawn by choice, its cost in words."""
+
+import asyncio
+
+import numpy as np
+import pytest
+
+import trackig_core as tig
+from dashboard.compute.idealisations import idealised
+from dashboard.views.idealisations import BAND_CHOICES, CHOICES, IdealisationsView, cost_words
+from trackig_core.bands import BANDS
+
+BLOCK = tig.PRESETS["booted-block-low-mass"]
+
+
+@pytest.fixture
+def view(session):
+    session.show("booted-block-low-mass")
+    return IdealisationsView(session.outcome, session.definition)
+
+
+def at_work(act):
+    """Do something as a server does, and wait for what it set going."""
+
+    async def done():
+        act()
+        async with asyncio.timeout(30):
+            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
+                await asyncio.wait(tasks)
+
+    asyncio.run(done())
+
+
+def test_nothing_is_computed_while_nobody_looks(view):
+    assert view.idealisations.found is None
+
+
+def test_levels_are_those_of_the_core(view):
+    at_work(lambda: view.look(True))
+    data = view.figure.levels.data
+    np.testing.assert_allclose(data["usual"], tig.solve(BLOCK, "exact").insertion_gain)
+    for name, choice in (("hysteretic", {"damping": "hysteretic"}), ("timoshenko", {"rail": "timoshenko"})):
+        np.testing.assert_allclose(data[name], tig.solve(BLOCK, "exact", **choice).insertion_gain)
+    assert not any(line.visible for line in view.figure.lines.values())
+    view.chosen.value = list(CHOICES.values())
+    assert all(line.visible for line in view.figure.lines.values())
+    assert len(view.figure.legend.listed) == 4
+
+
+def test_other_bands_are_shown_by_choice(view):
+    at_work(lambda: view.look(True))
+    at_work(lambda: view.bands.param.update(value="wide octave"))
+    assert list(view.figure.levels.data["label"]) == list(BANDS["wide octave"].labels)
+    assert "read the outer bands with care" in view.words.object
+
+
+def test_every_choice_of_bands_is_offered():
+    assert set(BAND_CHOICES.values()) == set(BANDS)
+
+
+def test_the_cost_is_that_of_the_worst_band():
+    found = idealised(BLOCK, "one-third-octave", "line", "energy")
+    change = found.otherwise["timoshenko"] - found.levels
+    worst = np.argmax(np.abs(change))
+    words = f"{change[worst]:+.1f} dB".replace("-", "−")
+    assert f"rotary inertia changes it by up to {words} at {tig.BAND_LABELS[worst]} Hz" in cost_words(found)
+
+
+def test_a_measured_stiffness_has_no_hysteretic_idealisation():
+    curve = tig.StiffnessCurve([(5, 90e6, 0.1), (500, 150e6, 0.2)])
+    found = idealised(BLOCK.replace(pad_stiffness=curve, pad_loss_factor=None), "octave", "line", "energy")
+    assert set(found.otherwise) == {"timoshenko"}
+    assert np.isfinite(found.single_degree).all()

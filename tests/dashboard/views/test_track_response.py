@@ -1,0 +1,100 @@
+"""The track's response on the page: computed while somebody looks, drawn for all shown designs, saved."""
+
+import asyncio
+import io
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import trackig_core as tig
+from dashboard.compute.responses import TrackResponses
+from dashboard.figures.track_response import MIDSPAN, SUPPORT
+from dashboard.views.track_response import TrackResponseView
+
+
+class FakeExchange:
+    def __init__(self):
+        self.saved = {}
+
+    def save(self, name, data):
+        self.saved[name] = data
+
+
+@pytest.fixture
+def view(session):
+    session.show("booted-block-low-mass")
+    session.pin("slab-track", "Slab")
+    return view_of(session)
+
+
+def view_of(session):
+    responses = TrackResponses(session.assessment)
+    return TrackResponseView(session.assessment, responses, session.snapshot, FakeExchange())
+
+
+def look(view):
+    """Look as a browser does, on an event loop, and wait for what is computed."""
+
+    async def looked():
+        view._responses.look(True)
+        async with asyncio.timeout(30):
+            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
+                await asyncio.wait(tasks)
+
+    asyncio.run(looked())
+
+
+def test_nothing_is_computed_while_nobody_looks(view):
+    assert not view._responses.responses
+    assert view.points.lines.data["x"] == []
+
+
+def test_receptances_and_decay_rates_of_all_shown_designs_are_drawn(view):
+    look(view)
+    expected = tig.analysis.track_response(tig.PRESETS["slab-track"])
+    drawn = view.points.lines.data
+    places = {(name, what): y for name, what, y in zip(drawn["name"], drawn["what"], drawn["y"], strict=True)}
+    assert len(places) == 4
+    np.testing.assert_allclose(places["Slab", SUPPORT], 1e12 * np.abs(expected.support))
+    np.testing.assert_allclose(places["Slab", MIDSPAN], 1e12 * np.abs(expected.midspan))
+    rates = view.decay.lines.data
+    assert len(rates["y"]) == 6
+    row = rates["what"].index(f"EN 15461, {MIDSPAN}", 3)
+    np.testing.assert_allclose(rates["y"][row], expected.midspan_decay_rate)
+    assert [len(each) for each in rates["x"]] == [17] * 6
+
+
+def test_mobility_is_drawn_by_choice(view):
+    look(view)
+    view.quantity.value = "mobility"
+    expected = tig.analysis.track_response(tig.PRESETS["booted-block-low-mass"])
+    np.testing.assert_allclose(view.points.lines.data["y"][0], 1e6 * np.abs(expected.support_mobility))
+    assert view.points.model.yaxis.axis_label == "Mobility, mm/(s kN)"
+
+
+def test_hidden_designs_are_not_drawn(session):
+    session.show("booted-block-low-mass")
+    session.pins.show(session.pin("slab-track", "Slab").key, False)
+    view = view_of(session)
+    look(view)
+    assert set(view.decay.lines.data["name"]) == {"This design"}
+
+
+def test_curves_are_saved_as_csv(view):
+    view._save_decay()
+    assert view._exchange.saved == {}, "nothing is there yet"
+    look(view)
+    view._save_decay()
+    view._save_points()
+    points, decay = (
+        pd.read_csv(io.StringIO(text), comment="#")
+        for text in sorted(view._exchange.saved.values(), key=lambda text: "db_per_m" in text)
+    )
+    expected = tig.analysis.track_response(tig.PRESETS["slab-track"])
+    np.testing.assert_allclose(
+        decay["support_decay_rate_db_per_m Slab"], expected.support_decay_rate, atol=6e-5
+    )
+    assert [float(each) for each in decay["frequency_hz"]] == [float(each) for each in expected.bands.labels]
+    real, imaginary = (points[f"receptance_midspan_{part}_m_per_N Slab"] for part in ("real", "imag"))
+    np.testing.assert_allclose(real + 1j * imaginary, expected.midspan, rtol=1e-5)
