@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from dashboard.fields import EXTRA_FIELDS, EXTRAS, INPUTS, NUMBERS, six_figures
 from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
+from dashboard.session import surroundings
 from dashboard.session.inputs import DesignInputs, GainDefinition, check_values, design_of, preset_values
 from dashboard.session.pins import Pins
 from dashboard.theme import MOST_PINNED
@@ -77,7 +78,7 @@ any_pins = st.lists(
 def test_what_was_encoded_comes_back(values, view, pins, data):
     base = data.draw(st.sampled_from([None, *range(len(pins))]))
     link = decode(arguments(encode(values, view, pins, base)))
-    assert link.values == values
+    assert link.values == surroundings.OFF | values
     assert link.view == view
     assert link.pins == pins
     assert link.base == base
