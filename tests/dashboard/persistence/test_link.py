@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import trackig_core as tig
 from dashboard.fields import EXTRA_FIELDS, EXTRAS, INPUTS, NUMBERS, six_figures
-from dashboard.persistence.link import MOST_PROBLEMS, VIEW_CHOICES, decode, encode
+from dashboard.persistence.link import ALWAYS, MOST_PROBLEMS, VIEW_CHOICES, decode, encode
 from dashboard.session import surroundings
 from dashboard.session.inputs import DesignInputs, GainDefinition, check_values, design_of, preset_values
 from dashboard.session.pins import Pins
@@ -94,7 +94,7 @@ def test_a_link_reopens_the_same_design(values):
 
 
 def test_the_whole_design_is_in_a_link_even_if_it_is_the_opening_one():
-    assert {*INPUTS} - {*EXTRAS} <= arguments(encode(OPENING)).keys()
+    assert {*ALWAYS} <= arguments(encode(OPENING)).keys()
 
 
 def test_extra_numbers_stand_in_a_link_only_where_they_are_set():
@@ -115,7 +115,7 @@ def test_extra_numbers_of_a_pin_that_cannot_be_read_change_nothing(extras):
 def test_a_kept_link_opens_the_same_study_for_ever():
     link = decode(arguments(LINK_OF_VERSION_1))
     assert link.problems == ()
-    assert link.values == {
+    assert link.values == surroundings.OFF | {
         "preset": "slab-track",
         "two_stage": False,
         "rail": "49E1",
@@ -248,7 +248,7 @@ def test_a_newer_link_is_opened_as_far_as_it_is_known():
 
 
 def pin_text(colour="0", shown="1", name="Pin", **values):
-    every = {key: each for key, each in {**OPENING, "two_stage": 1, **values}.items() if key not in EXTRAS}
+    every = {key: each for key, each in {**OPENING, "two_stage": 1, **values}.items() if key in ALWAYS}
     return "~".join((colour, shown, *map(str, every.values()), name)).encode()
 
 
