@@ -120,7 +120,7 @@ def _parser():
         prog="trackig",
         description="Insertion gain of railway track supports.",
         epilog="Exit codes: 0 all went well; 1 the specification is not met; 2 the input is at fault; "
-        "70 trackig itself is.",
+        "70 trackig itself is; 130 Ctrl+C was pressed; 141 nobody reads the verdicts any more.",
     )
     parser.add_argument("--version", action="version", version=f"trackig {tig.__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")

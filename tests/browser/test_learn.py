@@ -7,6 +7,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
+from dashboard import assets
 from dashboard.figures import motion as figures_motion
 from dashboard.teaching.lessons import load_lessons, reveal
 from tests.browser.conftest import count_sent, resting_place, wait_until_at_rest
@@ -17,6 +18,8 @@ pytestmark = pytest.mark.browser
 OPENING = tig.PRESETS["booted-block-low-mass"]
 
 LESSONS = load_lessons()[0]
+
+METHOD = assets.read_text("method.md")
 
 
 def look_at(page, subject):
@@ -235,11 +238,12 @@ def test_the_method_s_equations_are_shown_and_nothing_is_fetched(dashboard):
     dashboard.get_by_role("tab", name="Method").click()
     expect(dashboard.get_by_role("heading", name="Glossary")).to_be_attached()
     expect(dashboard.locator("math").first).to_be_visible()
-    assert dashboard.locator("math").count() >= 10
-    sizes = dashboard.locator("math").evaluate_all(
-        "all => all.map(each => each.getBoundingClientRect().width)"
-    )
-    assert min(sizes) > 30
+    displayed = dashboard.locator(".katex-display math")
+    assert displayed.count() == METHOD.count("\n$$\n") / 2
+    assert dashboard.locator("math").count() > 2 * displayed.count(), "symbols within a line are maths too"
+    for formulas, least in ((displayed, 30), (dashboard.locator("math"), 5)):
+        widths = formulas.evaluate_all("all => all.map(each => each.getBoundingClientRect().width)")
+        assert min(widths) > least
     assert dashboard.get_by_text("$$").count() == 0
     # TeX stands there only as the annotation that browsers hide
     raw = dashboard.get_by_text("\\frac").evaluate_all("all => all.map(each => each.localName)")
