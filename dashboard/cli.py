@@ -25,7 +25,7 @@ from dashboard.server.command import ServeError, add_arguments, serve
 from dashboard.session.pins import base_design, shown_designs
 from dashboard.session.results import SolutionSummary
 from trackig_core.levels import band_tables
-from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
+from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, reference_for
 from trackig_core.solver import FIDELITIES
 from trackig_core.study import studies
 from trackig_core.track.design import RANGES
@@ -275,10 +275,11 @@ def _solve(options):
         _refuse_to_lose(path, options.force, options.track)
     design, view, load = _track(options.track)
     load = _load(load, options)
+    changed = design.replace(**dict(map(_change, options.changes)))
     solution = tig.solve(
-        design.replace(**dict(map(_change, options.changes))),
+        changed,
         options.fidelity,
-        reference=options.reference or view.reference,
+        reference=options.reference or reference_for(changed, view.reference),
         summation=options.summation or view.summation,
     )
     statics = load.response(solution.design)
@@ -389,7 +390,10 @@ def _check(options):
     for pinned in shown_designs(opened):
         view = opened.view
         solution = tig.solve(
-            pinned.design, options.fidelity, reference=view.reference, summation=view.summation
+            pinned.design,
+            options.fidelity,
+            reference=reference_for(pinned.design, view.reference),
+            summation=view.summation,
         )
         deflection = tig.analysis.limited_deflection(opened.specification, pinned.design)
         verdict = opened.specification.check(solution.insertion_gain, deflection)

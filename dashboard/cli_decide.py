@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import trackig_core as tig
+from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.solver import FIDELITIES
 from trackig_core.track.fields import SLIDER_RANGES
 
@@ -340,13 +341,14 @@ def _answer(shell, kind, settings, options):
         return _job(study, kind, settings, options)
     if options.max_deflection is not None:
         settings["max_deflection"] = options.max_deflection
+    design = _design(study, options.design)
     question = Question(
         kind=kind,
-        design=_design(study, options.design),
+        design=design,
         settings=settings,
         specification=study.specification,
         source=study.source,
-        reference=study.view.reference,
+        reference=reference_for(design, study.view.reference),
         summation=study.view.summation,
     )
     with _watched(options.scheduler) as how:
@@ -383,7 +385,7 @@ def _job(study, kind, settings, options):
             designs,
             options.parquet,
             fidelity=options.fidelity,
-            reference=view.reference,
+            reference=reference_for(design, view.reference),
             summation=view.summation,
             **how,
         )

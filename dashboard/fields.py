@@ -17,6 +17,9 @@ NEWTON_PER_METRE = 1e6
 KILONEWTON = 1e3
 """One kN in N."""
 
+KILOMETRE_PER_HOUR = 1 / 3.6
+"""One km/h in m/s."""
+
 PRESET_LABELS = {
     "slab-track": "Slab track",
     "booted-sleeper": "Booted sleeper",
@@ -61,6 +64,8 @@ class Field:
         What it is unless somebody says otherwise [display units]; None: nothing.
     blank : str
         What its box says where it may be left empty; empty: it may not.
+    figures : int
+        Figures of the core's value [-]: more where the units are no power of ten apart.
     """
 
     name: str
@@ -76,6 +81,7 @@ class Field:
     second_stage: bool = False
     default: float | None = None
     blank: str = ""
+    figures: int = 6
 
     @property
     def labelled(self):
@@ -84,7 +90,7 @@ class Field:
 
     def to_si(self, value):
         """Return a display value in the core's unit; nothing stays nothing."""
-        return None if value is None else six_figures(value * self.factor)
+        return None if value is None else float(f"{value * self.factor:.{self.figures}g}")
 
     def to_display(self, value):
         """Return a design's value in the unit that is shown; nothing stays nothing."""
@@ -153,6 +159,9 @@ RAIL_FIELDS = {
 }
 """The numbers of a rail by name; a known section has its own."""
 
+SUSPENDED, GROUND = "Suspension and axles", "Ground"
+"""Groups of what the simplified model leaves out."""
+
 _STATIC_WORDS = (
     "Stiffness under a slow load, lower than the dynamic one; type 1.4x to give the dynamic over the static. "
     "Nothing but the rail's deflection depends on it."
@@ -167,6 +176,13 @@ EXTRA_FIELDS = {
             "in many test reports.",
             logarithmic=True,
             default=50.0,
+        ),
+        Field(
+            *("speed", "Speed", "km/h", KILOMETRE_PER_HOUR, 20, 360, 5, SUSPENDED),
+            "At which all wheels pass the same roughness, one after the other; empty: each has its own. One "
+            "wheel meets its roughness alone, at any speed.",
+            blank="independent roughness",
+            figures=12,
         ),
         Field(
             *("pad_static_stiffness", "Pad static stiffness", *_STIFF, 4, 2000, 1, "Statics"),
@@ -198,7 +214,10 @@ EXTRA_FIELDS = {
 EVERY_FIELD = FIELDS | EXTRA_FIELDS
 """Every number that the sidebar sets, by its name."""
 
-CLOSED_GROUPS = ("Advanced", "Statics")
+GROUPS = ("Rail pad", "Block and boot", "Track", "Vehicle", SUSPENDED, GROUND, "Advanced", "Statics")
+"""Groups of the sidebar, in its order."""
+
+CLOSED_GROUPS = (SUSPENDED, GROUND, "Advanced", "Statics")
 """Groups of which the sidebar shows no more than the heading until somebody opens them."""
 
 NUMBERS = tuple(FIELDS)
@@ -219,7 +238,10 @@ STIFFNESSES = tuple(name for name, field in FIELDS.items() if field.logarithmic)
 CONTROLLED = (*NUMBERS, "two_stage", "rail")
 """Inputs of a design that have a slider, a switch or a choice, and that every design needs."""
 
-PHYSICAL = (*CONTROLLED, *(name for name in EXTRAS if name not in LOAD), "special")
+SURROUNDINGS = ("suspension", "axle_positions", "ground")
+"""Inputs that are off in the simplified model, in SI units, chosen from the catalogue or a study's own."""
+
+PHYSICAL = (*CONTROLLED, *(name for name in EXTRAS if name not in LOAD), *SURROUNDINGS, "special")
 """Inputs that make the design: a change of any asks for a new solution. What is special stands in the place
 of what has a control."""
 

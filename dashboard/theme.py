@@ -109,6 +109,7 @@ DOT_SIZE = 9
 FONT = "Roboto, Helvetica, Arial, sans-serif"
 MARKER_LABEL_SIZE = "19px"
 SIDE_VIEW_LABEL_SIZE = "16px"
+CELL_SIZE = "12px"
 
 
 BAND_LABEL_WIDTH = 40
@@ -465,6 +466,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
 .disabled .box {{ pointer-events: none; }}
 
 .choice {{ position: relative; margin: 10px 0 4px 0; }}
+.choice.explained {{ display: grid; grid-template-columns: 1fr auto; align-items: center; column-gap: 8px; }}
 .choice .over {{
     position: absolute; top: -8px; left: 8px; padding: 0 5px; font-size: 12.5px; line-height: 16px;
     background: var(--panel-background-color);

@@ -163,7 +163,7 @@ def question_of(kind, settings, assessment, definition, design=None):
             settings,
             specification=assessment.specification,
             source=assessment.source,
-            reference=definition.reference,
+            reference=definition.reference_of(assessment.current.design),
             summation=definition.summation,
         )
     return None

@@ -42,6 +42,8 @@ LONG = 1.0
 waiting for a worker does not count: a busy server is not slow inputs."""
 
 STOPPED = "Stopped. The pictures show the last track that was solved."
+STOPPED_EXACT = "Stopped. The curve is the exact one of this track; its force was not solved."
+EXACT_ALL_THE_SAME = "The curve is the exact one of this track all the same."
 
 
 log = logging.getLogger(__name__)
@@ -116,10 +118,13 @@ class Runner(param.Parameterized):
     async def _solve(self, document):
         if self.outcome.summary is None or self.outcome.problem:
             self._publish(document, busy=True)
+        design = None
         try:
             await self._wait_for_compiler(document)
             design = self.inputs.to_design()
-            if self.outcome.summary is not None and self._store.kept((design, AT_REST)) is None:
+            # the first picture of an ordinary track is the paper's; that of others would take too long
+            first = self.outcome.summary is None and design == design.simplified
+            if not first and self._store.kept((design, AT_REST)) is None:
                 await self._follow(design, document)
             summary, from_cache = await self._obtain((design, AT_REST), document)
             changes = self._success(design, summary, from_cache)
@@ -131,9 +136,18 @@ class Runner(param.Parameterized):
         except _SupersededError:
             self._publish(document, progress=None)
         except _StoppedError:
-            self._publish(document, busy=False, progress=None, problem=STOPPED)
+            words = STOPPED_EXACT if self._has_exact(design) else STOPPED
+            self._publish(document, busy=False, progress=None, problem=words, asked=design)
         except Exception as error:
-            self._publish(document, busy=self._latest.pending, progress=None, problem=readable(error))
+            words = readable(error)
+            if self._has_exact(design):
+                words = f"{words} {EXACT_ALL_THE_SAME}"
+            self._publish(document, busy=self._latest.pending, progress=None, problem=words, asked=design)
+
+    def _has_exact(self, design):
+        """Return whether the exact curve of a design is drawn."""
+        shown = self.outcome.summary
+        return shown is not None and shown.design == design and shown.solution.fidelity == "exact"
 
     async def _wait_for_compiler(self, document):
         if compiled().done():
@@ -148,15 +162,24 @@ class Runner(param.Parameterized):
         taken = 0.0
         live = asyncio.ensure_future(self._obtain((design, MOVING), document))
         try:
-            # what live fidelity refuses or gives up, the paper's run answers or explains
-            with contextlib.suppress(_SlowError, tig.DesignError, tig.RunTooLargeError):
-                taken = await self._bridge(live, design, document)
-                summary, _ = await live
-                self._publish(document, **self._success(design, summary, from_cache=False))
+            taken = await self._bridge(live, design, document)
+            summary, _ = await live
+            self._publish(document, **self._success(design, summary, from_cache=False))
+        except (_SlowError, tig.DesignError, tig.RunTooLargeError):
+            # what live fidelity refuses or gives up, the paper's run answers or explains, after a long while
+            # where it is that of more than the simplified model
+            if design != design.simplified:
+                await self._draw_exact(design, document)
         finally:
             _abandon(live)
         if await self._news_within(max(REST, RESTS * taken)):
             raise _SupersededError
+
+    async def _draw_exact(self, design, document):
+        """Draw the exact curve of a design, if it has one."""
+        with contextlib.suppress(tig.DesignError):
+            summary, from_cache = await self._obtain((design, AT_ONCE), document)
+            self._publish(document, **self._success(design, summary, from_cache))
 
     async def _bridge(self, live, design, document):
         """Draw the exact curve while a live run is awaited for long, and return when there was a picture [s].
@@ -230,7 +253,7 @@ class Runner(param.Parameterized):
             if not moving and self._latest.pending:
                 raise _SupersededError
             if worked > LONG:
-                self._publish(document, busy=True, progress=job.fraction)
+                self._publish(document, busy=True, progress=job.fraction, asked=job.key[0])
 
     async def _look_up(self, future, whatever_is_new, seconds=LOOK_EVERY):
         """Wait until a solve is done, for a while at most, or until newer inputs arrive."""

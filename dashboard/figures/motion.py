@@ -7,25 +7,34 @@ they join: their drawn length shows how far they are squeezed. The browser adds 
 mirror images and magnification.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from bokeh.core.properties import value
 from bokeh.layouts import column, row
-from bokeh.models import ColumnDataSource, CustomJS, Range1d, Select, Slider, Toggle
+from bokeh.models import ColumnDataSource, CustomJS, Range1d, Select, Slider, Span, Toggle
 from bokeh.plotting import figure
 
 from dashboard import theme
 
-WHEEL_AT, RAIL_AT, BLOCK_AT, GROUND_AT = 0.66, 0.0, -0.6, -1.1
-"""Heights at rest: the wheel's centre, the rail, the blocks' centres, the ground [units of the drawing]."""
+WHEEL_AT, RAIL_AT, BLOCK_AT, FOOT_AT, FLOOR_AT = 0.66, 0.0, -0.6, -1.1, -1.5
+"""Heights at rest: the wheel's centre, the rail, the blocks' centres, the supports' feet, where rigid ground
+lies too, and what carries ground that yields [units of the drawing]."""
 
 WHEEL_HEIGHT, BLOCK_HEIGHT = 0.62, 0.24
 """Heights of wheel, which is round, and block [units of the drawing]."""
+
+FOOT_HEIGHT = 0.06
+"""Height of a support's foot [units of the drawing]."""
 
 BLOCK_WIDTH = 0.45
 """Width of a block over the spacing [-]."""
 
 SEEN = (-1.2, 1.25)
 """Heights that are seen [units of the drawing]."""
+
+BELOW_FLOOR = 0.1
+"""What is seen below rigid ground, and below the floor of ground that yields [units of the drawing]."""
 
 LARGEST = 0.3
 """What the largest movement is drawn as [units of the drawing]."""
@@ -59,11 +68,14 @@ class SideView:
         ``<name>_rail``: ``x`` [m] and height ``y`` of the elements, left to right.
     supports : bokeh.models.ColumnDataSource
         ``<name>_supports``: ``x`` [m], heights of ``rail``, block (``block``, its ``top`` and ``bottom``) and
-        ``ground``, ``width`` [m]; left to right. Blocks are NaN when single-stage.
+        ``ground``, ``width`` and that of the ``foot`` [m], and ``floor``; left to right. Blocks are NaN
+        when single-stage, the foot has no width where none moves.
     wheel : bokeh.models.ColumnDataSource
-        ``<name>_wheel``: ``x`` [m], heights ``y`` of its centre, ``foot`` and ``rail``.
+        ``<name>_wheel``, a row per wheel: ``x`` [m], heights ``y`` of its centre, ``foot`` and ``rail``, and
+        the ``element`` of the drawing on which it stands.
     facts : bokeh.models.ColumnDataSource
-        ``<name>_facts``: ``scale`` [units of the drawing per unit of movement].
+        ``<name>_facts``: ``scale`` [units of the drawing per unit of movement], and how many elements and
+        bays of the left are mirror images of those that were sent.
     bar : bokeh.models.ColumnDataSource
         ``<name>_bar``: the scale bar's ``x``, ends ``low`` and ``high``, and ``text``.
     """
@@ -74,9 +86,11 @@ class SideView:
             return ColumnDataSource(name=f"{name}_{part}", data={key: [] for key in columns}, syncable=False)
 
         self.rail = source("rail", "x", "y")
-        self.supports = source("supports", "x", "rail", "block", "top", "bottom", "ground", "width")
-        self.wheel = source("wheel", "x", "y", "foot", "rail")
-        self.facts = source("facts", "scale")
+        self.supports = source(
+            "supports", "x", "rail", "block", "top", "bottom", "ground", "width", "foot", "floor"
+        )
+        self.wheel = source("wheel", "x", "y", "foot", "rail", "element")
+        self.facts = source("facts", "scale", "elements", "bays")
         self.bar = source("bar", "x", "low", "high", "text")
         self.model = figure(
             name=f"{name}_figure",
@@ -97,7 +111,20 @@ class SideView:
         springs = {"x0": "x", "x1": "x", "source": self.supports, "line_dash": [2, 2], **spring}
         plot.segment(y0="rail", y1="top", **springs)
         plot.segment(y0="bottom", y1="ground", **springs)
-        plot.hspan(y=GROUND_AT, line_color=theme.PRESET_GHOST, line_width=theme.LINE_WIDTH)
+        plot.segment(y0="ground", y1="floor", **springs)
+        plot.rect(
+            x="x",
+            y="ground",
+            width="foot",
+            height=FOOT_HEIGHT,
+            source=self.supports,
+            fill_color=theme.PRESET_GHOST,
+            line_color=None,
+        )
+        self.floor = Span(
+            location=FOOT_AT, dimension="width", line_color=theme.PRESET_GHOST, line_width=theme.LINE_WIDTH
+        )
+        plot.add_layout(self.floor)
         plot.rect(
             x="x",
             y="block",
@@ -137,76 +164,125 @@ class SideView:
             text_font_size=theme.SIDE_VIEW_LABEL_SIZE,
         )
 
-    def move(self, wheel, rail, block):
+    def move(self, wheels, rail, block, foot):
         """Draw one instant, as the browser draws all others.
 
         Parameters
         ----------
-        wheel : float
-            Displacement of the wheel [unit of the movements].
-        rail, block : numpy.ndarray
-            Displacements of elements and blocks to one side of the wheel; no blocks when single-stage.
+        wheels : numpy.ndarray (wheels,)
+            Displacements of the wheels [unit of the movements].
+        rail, block, foot : numpy.ndarray
+            Displacements of elements, blocks and feet as they are sent: to one side where the left is a
+            mirror image; no blocks when single-stage, no feet where none moves.
         """
         scale, supports = self.facts.data["scale"][0], dict(self.supports.data)
-        height = RAIL_AT - scale * np.concatenate([rail[:0:-1], rail])
-        per_bay = (height.size - 1) // (supports["x"].size - 1)
-        supports["rail"] = height[::per_bay]
+        height = RAIL_AT - scale * _whole(rail, self.facts.data["elements"][0])
+        bays = self.facts.data["bays"][0]
+        supports["rail"] = height[:: (height.size - 1) // (supports["x"].size - 1)]
         if block.size:
-            supports["block"] = BLOCK_AT - scale * np.concatenate([block[:0:-1], block])
+            supports["block"] = BLOCK_AT - scale * _whole(block, bays)
             supports["top"] = supports["block"] + BLOCK_HEIGHT / 2
             supports["bottom"] = supports["block"] - BLOCK_HEIGHT / 2
-        centre = WHEEL_AT - scale * wheel
+        if foot.size:
+            supports["ground"] = FOOT_AT - scale * _whole(foot, bays)
+            if not block.size:
+                supports["top"] = supports["ground"]
+        centres = WHEEL_AT - scale * wheels
         self.rail.data = {**self.rail.data, "y": height}
         self.supports.data = supports
         self.wheel.data = {
             **self.wheel.data,
-            "y": np.array([centre]),
-            "foot": np.array([centre - WHEEL_HEIGHT / 2]),
-            "rail": np.array([height[height.size // 2]]),
+            "y": centres,
+            "foot": centres - WHEEL_HEIGHT / 2,
+            "rail": height[self.wheel.data["element"]],
         }
 
     def parts(self):
         """Return the arguments by which scripts of the browser know the drawing."""
         return {"rail": self.rail, "supports": self.supports, "wheel": self.wheel, "facts": self.facts}
 
-    def lay_out(self, rail_position, support_position, two_stage, largest, unit):
+    def lay_out(self, places, two_stage, yields, largest, unit):
         """Draw a track at rest.
 
         Parameters
         ----------
-        rail_position, support_position : numpy.ndarray
-            Elements and supports to one side of the wheel, the wheel's own first [m].
-        two_stage : bool
-            Whether there are blocks.
+        places : Places
+            Where its parts stand.
+        two_stage, yields : bool
+            Whether there are blocks, and whether feet move.
         largest : float
             Largest movement that will be drawn [unit].
         unit : str
             What the movements are counted in.
         """
-        elements, places = _both_sides(rail_position), _both_sides(support_position)
-        reach = 1.04 * places[-1]
-        self.model.x_range.update(start=-reach, end=reach)
+        supports, spacing = places.supports, places.supports[1] - places.supports[0]
+        room = 0.02 * (supports[-1] - supports[0])
+        self.model.x_range.update(start=supports[0] - room, end=supports[-1] + room)
         scale = LARGEST / largest
-        block = np.full(places.size, BLOCK_AT if two_stage else np.nan)
-        ground = np.full(places.size, GROUND_AT)
-        self.facts.data = {"scale": [scale]}
-        self.bar.data = _bar(-0.985 * reach, scale, unit)
-        self.rail.data = {"x": elements, "y": np.full(elements.size, RAIL_AT)}
+        block = np.full(supports.size, BLOCK_AT if two_stage else np.nan)
+        foot, floor = np.full(supports.size, FOOT_AT), FLOOR_AT if yields else FOOT_AT
+        self.floor.location = floor
+        self.model.y_range.start = floor - BELOW_FLOOR
+        self.facts.data = {"scale": [scale], "elements": [places.elements], "bays": [places.bays]}
+        self.bar.data = _bar(supports[0] - 0.4 * room, scale, unit)
+        self.rail.data = {"x": places.rail, "y": np.full(places.rail.size, RAIL_AT)}
         self.supports.data = {
-            "x": places,
-            "rail": np.full(places.size, RAIL_AT),
+            "x": supports,
+            "rail": np.full(supports.size, RAIL_AT),
             "block": block,
-            "top": block + BLOCK_HEIGHT / 2 if two_stage else ground,
+            "top": block + BLOCK_HEIGHT / 2 if two_stage else foot,
             "bottom": block - BLOCK_HEIGHT / 2,
-            "ground": ground,
-            "width": np.full(places.size, BLOCK_WIDTH * support_position[1]),
+            "ground": foot,
+            "width": np.full(supports.size, BLOCK_WIDTH * spacing),
+            "foot": np.full(supports.size, BLOCK_WIDTH * spacing if yields else 0.0),
+            "floor": np.full(supports.size, floor),
         }
+        count = places.wheels.size
         self.wheel.data = {
-            "x": np.zeros(1),
-            "y": np.array([WHEEL_AT]),
-            "foot": np.array([WHEEL_AT - WHEEL_HEIGHT / 2]),
-            "rail": np.array([RAIL_AT]),
+            "x": places.wheels,
+            "y": np.full(count, WHEEL_AT),
+            "foot": np.full(count, WHEEL_AT - WHEEL_HEIGHT / 2),
+            "rail": np.full(count, RAIL_AT),
+            "element": np.abs(places.rail[:, None] - places.wheels).argmin(axis=0),
         }
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where the parts of a drawn track stand, left to right.
+
+    Attributes
+    ----------
+    rail, supports, wheels : numpy.ndarray
+        Elements, supports and wheels [m].
+    elements, bays : int
+        Elements and supports at the left that are mirror images of those at the right: none where something
+        is known of both sides.
+    """
+
+    rail: np.ndarray
+    supports: np.ndarray
+    wheels: np.ndarray
+    elements: int
+    bays: int
+
+    @classmethod
+    def of(cls, moved):
+        """Return the places of a trackig_core.Motion or SteadyShape, one side of which may be known."""
+        if moved.position[0] < 0:
+            return cls(moved.position, moved.support_position, moved.wheel_position, 0, 0)
+        return cls(
+            _both_sides(moved.position),
+            _both_sides(moved.support_position),
+            moved.wheel_position,
+            moved.position.size - 1,
+            moved.support_position.size - 1,
+        )
+
+
+def _whole(moved, mirrored):
+    """Return displacements from left to right, of which some at the left are mirror images."""
+    return np.concatenate([moved[mirrored:0:-1], moved])
 
 
 def _both_sides(position):
@@ -223,26 +299,31 @@ def _bar(x, scale, unit):
 
 MOVE = f"""
     const scale = facts.data.scale[0], r = rail.data, s = supports.data, w = wheel.data
-    const elements = (r.x.length - 1) / 2, bays = (s.x.length - 1) / 2
-    const per_bay = elements / bays
-    for (let e = -elements; e <= elements; e++)
-        r.y[e + elements] = {RAIL_AT} - scale * of_rail(e)
-    for (let b = -bays; b <= bays; b++) {{
-        const i = b + bays
-        s.rail[i] = r.y[b * per_bay + elements]
-        if (!Number.isNaN(s.block[i])) {{
-            s.block[i] = {BLOCK_AT} - scale * of_block(b)
-            s.top[i] = s.block[i] + {BLOCK_HEIGHT / 2}
-            s.bottom[i] = s.block[i] - {BLOCK_HEIGHT / 2}
+    const elements = facts.data.elements[0], bays = facts.data.bays[0]
+    const per_bay = (r.x.length - 1) / (s.x.length - 1)
+    for (let e = 0; e < r.x.length; e++)
+        r.y[e] = {RAIL_AT} - scale * of_rail(Math.abs(e - elements))
+    for (let b = 0; b < s.x.length; b++) {{
+        s.rail[b] = r.y[b * per_bay]
+        const two_stage = !Number.isNaN(s.block[b])
+        if (two_stage) {{
+            s.block[b] = {BLOCK_AT} - scale * of_block(Math.abs(b - bays))
+            s.top[b] = s.block[b] + {BLOCK_HEIGHT / 2}
+            s.bottom[b] = s.block[b] - {BLOCK_HEIGHT / 2}
         }}
+        s.ground[b] = {FOOT_AT} - scale * of_foot(Math.abs(b - bays))
+        if (!two_stage)
+            s.top[b] = s.ground[b]
     }}
-    w.y[0] = {WHEEL_AT} - scale * of_wheel()
-    w.foot[0] = w.y[0] - {WHEEL_HEIGHT / 2}
-    w.rail[0] = r.y[elements]
+    for (let i = 0; i < w.x.length; i++) {{
+        w.y[i] = {WHEEL_AT} - scale * of_wheel(i)
+        w.foot[i] = w.y[i] - {WHEEL_HEIGHT / 2}
+        w.rail[i] = r.y[w.element[i]]
+    }}
     for (const source of [rail, supports, wheel])
         source.change.emit()
 """
-"""Moves the drawing by what ``of_rail``, ``of_block`` and ``of_wheel`` say."""
+"""Moves the drawing by what ``of_rail``, ``of_block``, ``of_foot`` and ``of_wheel`` say."""
 
 PLAY = """
     play.label = play.active ? "Pause" : "Play"
@@ -277,7 +358,8 @@ class _Player:
     parts : sequence of bokeh.models.ColumnDataSource
         What moves; the last one, once sent, makes the browser draw.
     frame : str
-        Script that defines ``of_rail``, ``of_block`` and ``of_wheel``; it knows the parts by their names.
+        Script that defines ``of_rail``, ``of_block``, ``of_foot`` and ``of_wheel``; it knows the parts by
+        their names.
     rate : str
         Script of how far the slider moves on in one millisecond.
     speed : bokeh.models.Select, optional
@@ -313,14 +395,14 @@ class FilmPlayer(_Player):
     view : SideView
         The drawing.
     film : bokeh.models.ColumnDataSource
-        Named ``film``, a row per frame: ``time`` [ms], ``wheel``, ``rail_0`` ... and ``block_0`` ... from the
-        wheel to one side [µm].
+        Named ``film``, a row per frame: ``time`` [ms], ``wheel_0`` ..., ``rail_0`` ... and ``block_0`` ...
+        [µm], from one wheel to one side, or left to right.
     slider, play, speed
         Time [ms], play and pause, and how slow.
     """
 
     def __init__(self):
-        self.film = ColumnDataSource(name="film", data={"time": [], "wheel": []}, syncable=False)
+        self.film = ColumnDataSource(name="film", data={"time": [], "wheel_0": []}, syncable=False)
         self.speed = Select(
             name="film_speed",
             value="50",
@@ -341,22 +423,25 @@ class FilmPlayer(_Player):
             The film.
         """
         two_stage = motion.block is not None
-        places = [motion.wheel[:, None], motion.rail, *([motion.block] if two_stage else [])]
-        largest = MICROMETRES * max(np.abs(moved).max() for moved in places)
-        self.view.lay_out(motion.position, motion.support_position, two_stage, largest, "µm")
+        moved = [motion.wheels, motion.rail, *([motion.block] if two_stage else [])]
+        largest = MICROMETRES * max(np.abs(each).max() for each in moved)
+        # a run records no feet: they are drawn at rest
+        self.view.lay_out(Places.of(motion), two_stage, yields=False, largest=largest, unit="µm")
         time = 1000 * motion.time
         self.slider.update(start=float(time[0]), end=float(time[-1]))
-        columns = {"time": time, "wheel": _micrometres(motion.wheel)}
-        columns |= {f"rail_{i}": _micrometres(moved) for i, moved in enumerate(motion.rail.T)}
-        if two_stage:
-            columns |= {f"block_{i}": _micrometres(moved) for i, moved in enumerate(motion.block.T)}
+        columns = {"time": time}
+        for part, displacements in zip(("wheel", "rail", "block"), moved, strict=False):
+            columns |= {f"{part}_{i}": _micrometres(each) for i, each in enumerate(displacements.T)}
         start = int(np.argmin(np.abs(time - self.slider.value)))
-        block = motion.block[start] if two_stage else np.zeros(0)
-        self.view.move(
-            *(MICROMETRES * moved[start] for moved in (motion.wheel, motion.rail)), MICROMETRES * block
-        )
+        block = motion.block[start] if two_stage else NOTHING
+        wheels, rail = motion.wheels[start], motion.rail[start]
+        self.view.move(*(MICROMETRES * each for each in (wheels, rail, block)), NOTHING)
         # last, since it makes the browser draw the instant at which its own slider stands
         self.film.data = columns
+
+
+NOTHING = np.zeros(0)
+"""Displacements of what is not there."""
 
 
 def _micrometres(displacement):
@@ -370,9 +455,10 @@ FILM_FRAME = """
     const interval = (time[time.length - 1] - time[0]) / (time.length - 1)
     const at = Math.round((slider.value - time[0]) / interval)
     const frame = Math.max(0, Math.min(time.length - 1, at))
-    const of_rail = element => film.data[`rail_${Math.abs(element)}`][frame]
-    const of_block = support => film.data[`block_${Math.abs(support)}`][frame]
-    const of_wheel = () => film.data.wheel[frame]
+    const of_rail = element => film.data[`rail_${element}`][frame]
+    const of_block = support => film.data[`block_${support}`][frame]
+    const of_foot = () => 0
+    const of_wheel = wheel => film.data[`wheel_${wheel}`][frame]
 """
 
 
@@ -385,20 +471,20 @@ class ShapePlayer(_Player):
         Drawing and controls.
     view : SideView
         The drawing.
-    rail, block, wheel : bokeh.models.ColumnDataSource
-        Named ``shape_of_rail`` and so on: ``real`` and ``imag`` part per unit roughness [-], from the wheel
-        to one side; no blocks when single-stage.
+    parts : dict of bokeh.models.ColumnDataSource
+        ``rail``, ``block``, ``foot`` and ``wheel``, named ``shape_of_rail`` and so on: ``real`` and ``imag``
+        part per unit roughness [-], left to right; no blocks when single-stage, no feet on rigid ground.
     slider, play
         Phase [degrees], play and pause.
     """
 
     def __init__(self):
-        self.rail, self.block, self.wheel = parts = [
-            ColumnDataSource(name=f"shape_of_{of}", data={"real": [], "imag": []}, syncable=False)
-            for of in ("rail", "block", "wheel")
-        ]
+        self.parts = {
+            of: ColumnDataSource(name=f"shape_of_{of}", data={"real": [], "imag": []}, syncable=False)
+            for of in ("rail", "block", "foot", "wheel")
+        }
         phase = {"title": "Phase, degrees", "end": 360, "step": 1, "format": "0"}
-        super().__init__("shape", phase, parts, SHAPE_PHASE, f"360 / {PERIOD}")
+        super().__init__("shape", phase, list(self.parts.values()), SHAPE_PHASE, f"360 / {PERIOD}")
 
     def show(self, shape):
         """Show a steady shape at its first frequency.
@@ -408,17 +494,15 @@ class ShapePlayer(_Player):
         shape : trackig_core.SteadyShape
             The shape.
         """
-        two_stage = shape.block is not None
-        right, own = shape.position >= 0, shape.support_position >= 0
-        moved = {"rail": shape.rail[right, 0], "wheel": shape.wheel[:1]}
-        moved["block"] = shape.block[own, 0] if two_stage else np.zeros(0)
+        parts = {"rail": shape.rail, "block": shape.block, "foot": shape.foot, "wheel": shape.wheels}
+        moved = {name: NOTHING if part is None else part[:, 0] for name, part in parts.items()}
         largest = max(np.abs(each).max(initial=0.0) for each in moved.values())
-        unit = "× roughness"
-        self.view.lay_out(shape.position[right], shape.support_position[own], two_stage, largest, unit)
-        self.view.move(moved["wheel"][0].real, moved["rail"].real, moved["block"].real)
+        two_stage, yields = shape.block is not None, shape.foot is not None
+        self.view.lay_out(Places.of(shape), two_stage, yields, largest, "× roughness")
+        self.view.move(*(moved[name].real for name in ("wheel", "rail", "block", "foot")))
         # the wheel last, since it makes the browser draw the phase at which its own slider stands
-        for source, key in ((self.rail, "rail"), (self.block, "block"), (self.wheel, "wheel")):
-            source.data = {"real": moved[key].real, "imag": moved[key].imag}
+        for name, source in self.parts.items():
+            source.data = {"real": moved[name].real, "imag": moved[name].imag}
 
 
 SHAPE_PHASE = """
@@ -427,7 +511,9 @@ SHAPE_PHASE = """
     const phase = slider.value * Math.PI / 180
     const cosine = Math.cos(phase), sine = Math.sin(phase)
     const now = (of, i) => of.data.real[i] * cosine - of.data.imag[i] * sine
-    const of_rail = element => now(shape_of_rail, Math.abs(element))
-    const of_block = support => now(shape_of_block, Math.abs(support))
-    const of_wheel = () => now(shape_of_wheel, 0)
+    const yields = shape_of_foot.data.real.length > 0
+    const of_rail = element => now(shape_of_rail, element)
+    const of_block = support => now(shape_of_block, support)
+    const of_foot = support => yields ? now(shape_of_foot, support) : 0
+    const of_wheel = wheel => now(shape_of_wheel, wheel)
 """

@@ -1,5 +1,7 @@
 """The track as a drawing: wheel, contact, rail, pads, blocks and boots, as large as they are stiff or heavy.
 
+Bogie and body stand above the wheel, feet on springs below the supports, where the design has them.
+
 The picture itself is ``assets/track.svg``, a Jinja template; here every length in it is computed, in
 the units of its view box [px]. Along the rail it is true to scale. Across, stiffness makes a spring's
 wire thick and its turns few, on one scale for pad, boot and contact; mass makes wheel and block
@@ -14,7 +16,7 @@ import jinja2
 
 import trackig_core as tig
 from dashboard import assets, formats, theme
-from dashboard.fields import STIFFNESSES, to_display
+from dashboard.fields import NEWTON_PER_METRE, STIFFNESSES, to_display
 from dashboard.session.inputs import DesignInputs
 from trackig_core.track.design import REFERENCE_FREQUENCY
 
@@ -81,6 +83,21 @@ FULL_LOSS = DesignInputs.param.pad_loss_factor.bounds[1]
 DAMPER_REACH = 22.0
 """Half of the height of a damper [px]."""
 
+VEHICLE_ROOM, GROUND_ROOM = 156, 66
+"""Room that bogie and body need above the wheel, and springs of the ground below the supports [px]."""
+
+BOGIE_TOP, BODY_TOP, CARRIED_HEIGHT, CARRIED_WIDTH = -66, -142, 28, 150
+"""Levels and sizes of bogie and body, which no number of theirs moves [px]."""
+
+BOGIE_LABEL, BODY_LABEL, NEXT_AXLE = -50, -126, 200
+"""Baselines of their labels, and of the words on the next axle [px]."""
+
+LABEL_DROP = 30
+"""How much lower the ground's label stands beside its springs [px]."""
+
+FOOT_HEIGHT = 9
+"""Height of a support's foot on ground that yields [px]."""
+
 TITLE = "The track, drawn"
 
 WORDS = {
@@ -92,6 +109,8 @@ WORDS = {
     "boot": "Boot: the soft layer around and under the block",
     "ground": "Ground: rigid; the force that it takes is the result",
     "spacing": "Spacing: from fastener to fastener",
+    "vehicle": "Bogie and body: what the wheel carries on its suspension, a share of each",
+    "foot": "Ground that yields: a spring and a damper under each support by itself",
 }
 """What each part is, shown when the pointer rests on it."""
 
@@ -178,7 +197,8 @@ def geometry(design):
     boot = _boot(design, block, half)
     return {
         "width": WIDTH,
-        "height": HEIGHT,
+        "top": 0 if design.suspension is None else -VEHICLE_ROOM,
+        "height": HEIGHT + _vehicle_room(design) + _ground_room(design),
         "left": LEFT,
         "floor": FLOOR,
         "supports": supports,
@@ -189,12 +209,59 @@ def geometry(design):
         "block": block,
         "boot": boot,
         "ground": _ground(supports, boot),
+        "feet": _feet(design, half),
+        "vehicle": _vehicle(design, WHEEL_BOTTOM - 2 * radius),
+        "next_axle": _next_axle(design),
+        "next_axle_y": NEXT_AXLE,
         "dimension": {
-            "y": DIMENSION,
+            "y": DIMENSION + _ground_room(design),
             "end": WHEEL_X + pitch,
             "text": f"{formats.quantity_text(design.fastener_spacing)} m",
         },
     }
+
+
+def _vehicle_room(design):
+    return 0 if design.suspension is None else VEHICLE_ROOM
+
+
+def _ground_room(design):
+    return 0 if design.ground is None else GROUND_ROOM
+
+
+def _vehicle(design, wheel_top):
+    """Return what stands above the wheel, or None: springs, and the masses that they carry."""
+    carried = design.suspension
+    if carried is None:
+        return None
+    masses, springs = [BOGIE_TOP], [_spring(*_soft(carried.primary_stiffness), BOGIE_TOP, wheel_top)]
+    if carried.body_mass is not None:
+        masses.append(BODY_TOP)
+        springs.append(_spring(*_soft(carried.secondary_stiffness), BODY_TOP, BOGIE_TOP))
+    for spring in springs:  # they end below the mass that they carry
+        spring["spring"] = [(x, max(y, spring["top"] + CARRIED_HEIGHT)) for x, y in spring["spring"]]
+    return {"masses": masses, "springs": springs, "height": CARRIED_HEIGHT, "width": CARRIED_WIDTH}
+
+
+def _soft(stiffness):
+    """Return a stiffness [kN/mm] with the place and half of the width of its spring [px]."""
+    return stiffness / NEWTON_PER_METRE, 0.0, 2 * CONTACT_REACH
+
+
+def _feet(design, half):
+    """Return the feet of the supports and the springs below them, or None on rigid ground."""
+    if design.ground is None:
+        return None
+    top = FLOOR if design.two_stage else SLAB_TOP
+    floor, stiffness = FLOOR + GROUND_ROOM, design.ground.stiffness / NEWTON_PER_METRE
+    spring = _spring(stiffness, 0.0, 0.34 * half, FLOOR + FOOT_HEIGHT, floor)
+    return {**spring, "top": top, "bottom": FLOOR + FOOT_HEIGHT, "half": half, "floor": floor}
+
+
+def _next_axle(design):
+    """Return where the next wheel stands, in words; empty where there is none."""
+    ahead = [each for each in design.axle_positions if each > 0]
+    return f"next axle at {formats.quantity_text(min(ahead))} m →" if ahead else ""
 
 
 def _drawn_spacing(design):
@@ -345,12 +412,29 @@ def labels(design, parts):
         ]
     else:
         rows.append((SLAB_LABEL, ("Slab", "no blocks, no boots"), LEFT + 14))
+    if design.suspension is not None:
+        rows += _carried_labels(design.suspension)
     to_scale = design.fastener_spacing == _drawn_spacing(design)
+    if design.ground is None:
+        rows.append((GROUND_LABEL, ("Ground, rigid",), LEFT + 14))
+    else:
+        foot_edge = WHEEL_X - 0.34 * pad["half"]
+        rows.append((GROUND_LABEL + LABEL_DROP, ("Ground", _ground_text(design.ground)), foot_edge))
     rows += [
-        (GROUND_LABEL, ("Ground, rigid",), LEFT + 14),
-        (SPACING_LABEL, ("Spacing", "to scale" if to_scale else "not to scale"), None),
+        (SPACING_LABEL + _ground_room(design), ("Spacing", "to scale" if to_scale else "not to scale"), None),
     ]
     return [{"y": y, "lines": lines, "target": target} for y, lines, target in rows]
+
+
+def _carried_labels(carried):
+    edge = WHEEL_X - CARRIED_WIDTH / 2 + 6
+    yield BOGIE_LABEL, ("Bogie", f"{_mass_text(carried.bogie_mass)} a wheel"), edge
+    if carried.body_mass is not None:
+        yield BODY_LABEL, ("Body", f"{_mass_text(carried.body_mass)} a wheel"), edge
+
+
+def _ground_text(ground):
+    return f"{ground.stiffness / NEWTON_PER_METRE:.3g} kN/mm"
 
 
 def _mass_text(mass):
@@ -383,5 +467,25 @@ def description(design):
     return (
         f"A wheel of {_mass_text(design.wheel_mass)} unsprung mass stands on a contact spring of "
         f"{_stiffness_text(design, 'contact')}. {rail}. Under the rail, every "
-        f"{formats.quantity_text(design.fastener_spacing)} m: {'; '.join(layers)}; then rigid ground."
+        f"{formats.quantity_text(design.fastener_spacing)} m: {'; '.join(layers)}; "
+        f"then {_ground_words(design)}."
+        f"{_vehicle_words(design)}"
     )
+
+
+def _ground_words(design):
+    if design.ground is None:
+        return "rigid ground"
+    return f"a foot on ground of its own, {_ground_text(design.ground)}"
+
+
+def _vehicle_words(design):
+    """Return what stands above and beside the wheel, in words; empty if nothing does."""
+    carried, words = design.suspension, ""
+    if carried is not None:
+        words += f" The wheel carries {_mass_text(carried.bogie_mass)} of a bogie"
+        words += "." if carried.body_mass is None else f" and {_mass_text(carried.body_mass)} of a body."
+    if len(design.axle_positions) > 1:
+        at = ", ".join(formats.quantity_text(each) for each in design.axle_positions)
+        words += f" Wheels stand at {at} m."
+    return words

@@ -24,8 +24,10 @@ from dashboard.fields import (
     NUMBERS,
     OPENING_PRESET,
     SHOWN,
+    SURROUNDINGS,
 )
 from dashboard.formats import name_text, quantity_text
+from dashboard.session import surroundings
 from dashboard.session.inputs import DesignInputs, GainDefinition, design_of, preset_values, values_of
 from dashboard.session.pins import free_colour, free_name
 from dashboard.session.special import DEFAULTS, is_curve, is_on_slider, on_slider, special_values
@@ -52,8 +54,11 @@ PINS = "pins"
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 
+OPTIONAL = (*EXTRAS, *SURROUNDINGS)
+"""Inputs that a link holds where they are set."""
+
 EXTRA_SEPARATOR, EXTRA_SIGN = ";", "="
-"""Between the extra numbers of a pin, and between name and number."""
+"""Between the optional inputs of a pin, and between name and value."""
 
 CHOICES = {
     "preset": tuple(DesignInputs.param.preset.objects),
@@ -117,7 +122,7 @@ def encode(values, view=None, pins=(), base=None):
     held = [pin for pin in pins if not _too_much(special_values(pin.design))]
     missing = [*_too_much(values.get("special", {})), *([PINS] if len(held) < len(pins) else [])]
     pairs = [("v", VERSION), *zip(SHOWN, _texts(values), strict=True)]
-    pairs += [*_extras(values).items(), *(view or {}).items()]
+    pairs += [*_optional(values).items(), *(view or {}).items()]
     pairs += [("pin", _pin_text(pin)) for pin in held]
     if base is not None and pins[base] in held:
         pairs.append(("base", str(held.index(pins[base]) + 1)))
@@ -159,10 +164,13 @@ def _texts(values):
         yield repr(exact / FIELDS[name].factor) if isinstance(exact, float) else _text(values[name])
 
 
-def _extras(values):
-    """Return the texts of the extra numbers that are set, by name."""
+def _optional(values):
+    """Return the texts of the optional inputs that are set, by name."""
     given = {name: values.get(name, EXTRA_FIELDS[name].default) for name in EXTRAS}
-    return {name: _text(value) for name, value in given.items() if value != EXTRA_FIELDS[name].default}
+    numbers = {name: _text(value) for name, value in given.items() if value != EXTRA_FIELDS[name].default}
+    around = surroundings.OFF | {name: values[name] for name in SURROUNDINGS if name in values}
+    on = [name for name in SURROUNDINGS if around[name] != surroundings.OFF[name]]
+    return {**numbers, **{name: surroundings.written(name, around) for name in on}}
 
 
 def _text(value):
@@ -174,7 +182,7 @@ def _text(value):
 def _pin_text(pin):
     # the format has a place for every input: those that a single-stage track lacks are as its preset opens
     values = preset_values(pin.preset or OPENING_PRESET) | values_of(pin.design)
-    extras = (EXTRA_SIGN.join(each) for each in _extras(values).items() if each[0] not in LOAD)
+    extras = (EXTRA_SIGN.join(each) for each in _optional(values).items() if each[0] not in LOAD)
     shown = EXTRA_SEPARATOR.join((str(int(pin.shown)), *extras))
     return SEPARATOR.join((str(pin.colour), shown, *_texts(values), pin.name))
 
@@ -194,7 +202,7 @@ def decode(arguments, view_choices=VIEW_CHOICES):
     Link
         A design that can be solved, and words on what could not be read.
     """
-    known = ("v", "pin", "base", FILE, *SHOWN, *EXTRAS, *view_choices)
+    known = ("v", "pin", "base", FILE, *SHOWN, *OPTIONAL, *view_choices)
     problems = [
         f"“{_key_text(key)}” is nothing that a link can set; it was ignored."
         for key in arguments
@@ -283,7 +291,23 @@ def _values(given, whose, problems):
     extras = {
         name: _number(name, given[name], values[name], whose, problems) for name in EXTRAS if name in given
     }
-    return {**values, **shown, **extras, "special": special}
+    values = {**values, **shown, **extras, "special": special}
+    return values | _surroundings(given, values, whose, problems)
+
+
+def _surroundings(given, values, whose, problems):
+    """Return vehicle, axles and ground, as far as they can be read and go with all else."""
+    found = dict(surroundings.OFF)
+    for name in SURROUNDINGS:
+        if name in given:
+            try:
+                read = {name: surroundings.read(name, given[name])}
+                design_of(values | found | read)
+            except ValueError:
+                problems.append(f"{whose}{_label(name)} cannot be read; it was ignored.")
+            else:
+                found |= read
+    return found
 
 
 def _is_allowed(name, text, allowed, whose, problems):
@@ -337,7 +361,7 @@ def _pin(text, before, whose, problems):
     colour, settings, *_, name = parts
     shown, *extras = settings.split(EXTRA_SEPARATOR)
     extra = dict(each.partition(EXTRA_SIGN)[::2] for each in extras)
-    given |= {key: each for key, each in extra.items() if key in EXTRAS and key not in LOAD}
+    given |= {key: each for key, each in extra.items() if key in OPTIONAL and key not in LOAD}
     taken = {pin.colour for pin in before}
     free = {str(index): index for index in range(MOST_PINNED) if index not in taken}
     values = _values(given, whose, problems)

@@ -16,9 +16,11 @@ from dashboard import formats, theme
 from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, LOAD
 from dashboard.report import plots
 from dashboard.report.answer_pages import question_lines
+from dashboard.session import surroundings
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
 from dashboard.session.results import DesignResult
 from dashboard.session.special import input_text
+from trackig_core.levels.insertion_gain import reference_for
 
 FREQUENCIES = (
     ("Loaded track", lambda natural: natural.loaded_track),
@@ -41,7 +43,7 @@ TEMPLATES = jinja2.Environment(
 """Templates of what is printed; whatever they show is escaped."""
 
 
-def html_report(study, summaries, *, date, version, pages=None):
+def html_report(study, summaries, *, date, version, pages=None, left_out=None):
     """Return a report of a study.
 
     Parameters
@@ -56,6 +58,8 @@ def html_report(study, summaries, *, date, version, pages=None):
         Version of the software.
     pages : mapping of str to AnswerPage, optional
         What is shown of the study's answers by their digests; of others there are words alone.
+    left_out : dashboard.teaching.left_out.LeftOut, optional
+        What the simplified model leaves out of the current design, where that was asked for.
 
     Returns
     -------
@@ -82,6 +86,11 @@ def html_report(study, summaries, *, date, version, pages=None):
         left_out=[each.name for each in shown_designs(study) if each.design not in summaries],
         hidden=[each.name for each in study.pinned if not each.shown],
         kind=formats.definition_text(study.view.summation, study.view.reference),
+        yielding=[
+            each.name
+            for each in results
+            if reference_for(each.design, study.view.reference) != study.view.reference
+        ],
         gain_plot=plots.gain_svg(results, study.specification),
         difference_plot=plots.difference_svg(results, base) if len(results) > 1 else None,
         force_plot=plots.force_svg(results),
@@ -98,9 +107,24 @@ def html_report(study, summaries, *, date, version, pages=None):
         fidelities=formats.fidelities_text(each.summary.solution.fidelity for each in results),
         notes=[(each.name, each.summary.solution.notes) for each in results if each.summary.solution.notes],
         answers=[(each, *question_lines(each), (pages or {}).get(each.digest)) for each in study.answers],
+        ladder=None if left_out is None else _ladder(left_out, every[0].name),
         file=study.to_toml(),
         theme=theme,
     )
+
+
+def _ladder(left_out, name):
+    """Return what the report says of a design's ladder."""
+    ladder = left_out.ladder
+    rungs = (*ladder.rungs, ladder.one_dimensional)
+    columns = [ladder.rungs[0].insertion_gain, *(rung.difference for rung in rungs[1:])]
+    cells = [list(map(formats.signed_text, levels)) for levels in zip(*columns, strict=True)]
+    return {
+        "design": name,
+        "rungs": rungs,
+        "bands": list(zip(tig.BAND_LABELS, cells, strict=True)),
+        "words": left_out.words,
+    }
 
 
 def _beyond(results):
@@ -124,7 +148,8 @@ def _results(study, summaries):
 def _result(study, record, summary):
     if summary is None:
         return DesignResult(record)
-    gain = summary.solution.gain_for(study.view.reference, study.view.summation)
+    reference = reference_for(record.design, study.view.reference)
+    gain = summary.solution.gain_for(reference, study.view.summation)
     limits = study.specification
     deflection = tig.analysis.limited_deflection(limits, record.design)
     verdict = None if limits is None else limits.check(gain.levels, deflection)
@@ -151,12 +176,15 @@ def _inputs(results, base):
 INPUT_ROWS = (
     ("rail", "Rail", ""),
     *((name, field.label, field.unit) for name, field in EVERY_FIELD.items() if name not in LOAD),
+    *((name, label, "") for name, label in surroundings.LABELS.items()),
 )
 """Attribute, label and unit of each input of a design."""
 
 
 def is_told(design, name):
-    """Return whether an input of a design is reported: an extra number only where it is set."""
+    """Return whether an input of a design is reported: an extra one only where it is set."""
+    if name in surroundings.OFF:
+        return getattr(design, name) != surroundings.OFF[name]
     if name not in EXTRA_FIELDS:
         return True
     field = EXTRA_FIELDS[name]

@@ -84,10 +84,11 @@ def use_own_files(document):
 
     Parameters
     ----------
-    document : bokeh.document.Document
-        The session's document, still empty.
+    document : bokeh.document.Document or None
+        The session's document, still empty; None without a session.
     """
-    document.template_variables["dist_url"] = get_dist_path()
+    if document is not None:
+        document.template_variables["dist_url"] = get_dist_path()
 
 
 def prepare(application_context, title):

@@ -7,6 +7,7 @@ import trackig_core as tig
 from dashboard import formats
 from dashboard.fields import PRESET_LABELS
 from dashboard.session.pins import THIS_DESIGN
+from trackig_core.levels.insertion_gain import reference_for
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,9 @@ class Heading:
         return cls(
             study=study.name,
             design=current_name(study) if first.key is None else first.name,
-            definition=formats.definition_text(study.view.summation, study.view.reference),
+            definition=formats.definition_text(
+                study.view.summation, reference_for(first.design, study.view.reference)
+            ),
             fidelity=formats.fidelities_text(each.summary.solution.fidelity for each in results),
             date=date,
             version=tig.__version__,

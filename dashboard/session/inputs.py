@@ -26,11 +26,13 @@ from dashboard.fields import (
     RAIL_FIELDS,
     SECOND_STAGE,
     SHOWN,
+    SURROUNDINGS,
     six_figures,
     to_display,
     to_si,
 )
 from dashboard.formats import quantity_text
+from dashboard.session import surroundings
 from dashboard.session.special import (
     OWN_RAIL,
     is_curve,
@@ -39,6 +41,7 @@ from dashboard.session.special import (
     special_values,
     with_special,
 )
+from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.typed_numbers import NumberError, read_number
 
 
@@ -49,7 +52,7 @@ def design_of(values):
     ----------
     values : mapping
         Values of :data:`PHYSICAL` by name [display units]; the second stage's may stand there unused, and
-        extra numbers may be missing.
+        extra numbers and surroundings may be missing.
 
     Returns
     -------
@@ -64,6 +67,7 @@ def design_of(values):
     names = [name for name in _DESIGN_NUMBERS if values["two_stage"] or name not in SECOND_STAGE]
     given = {name: values[name] if name in NUMBERS else _extra(values, name) for name in names}
     fields = {name: to_si(name, value) for name, value in given.items()}
+    fields |= {name: values[name] for name in SURROUNDINGS if name in values}
     fields["rail"] = tig.RAILS[values["rail"]]
     return tig.TrackDesign(**with_special(fields, values.get("special", {})))
 
@@ -112,6 +116,7 @@ def display_values(design):
             for name in extras
             if design.two_stage or name not in SECOND_STAGE
         },
+        **{name: getattr(design, name) for name in SURROUNDINGS},
         "special": special_values(design),
     }
 
@@ -260,6 +265,16 @@ class DesignInputs(param.Parameterized):
     boot_static_stiffness = _number("boot_static_stiffness")
     wheel_load = _number("wheel_load")
     wheelbase = _number("wheelbase")
+    speed = _number("speed")
+    suspension = param.ClassSelector(
+        class_=tig.Suspension, default=None, allow_None=True, label=surroundings.LABELS["suspension"]
+    )
+    axle_positions = param.Parameter(
+        default=surroundings.OFF["axle_positions"], label=surroundings.LABELS["axle_positions"]
+    )
+    ground = param.ClassSelector(
+        class_=tig.Ground, default=None, allow_None=True, label=surroundings.LABELS["ground"]
+    )
     modified = param.Boolean(default=False, doc="Whether the design differs from its preset.")
     refused = param.Dict(default={}, doc="Advice on what was given and not taken, by name of the input.")
 
@@ -352,7 +367,7 @@ class DesignInputs(param.Parameterized):
         gesture : int, optional
             Number of the gesture that gave it.
         """
-        values, refused = {}, {}
+        values, refused = self._surroundings(given)
         for name in (*CONTROLLED, *EXTRAS, *RAIL_FIELDS):
             if name in given and (name, given[name]) != ("rail", OWN_RAIL):
                 dynamic = name.replace("_static", "") if "_static" in name else None
@@ -366,6 +381,7 @@ class DesignInputs(param.Parameterized):
         try:
             if given.get("preset") in tuple(tig.PRESETS):
                 self.preset = given["preset"]
+            self._refuse_apart(values, refused)
             earlier = {name: words for name, words in self.refused.items() if name not in values}
             self._set(self._with_special(values, given.get("rail")), {**earlier, **refused})
         finally:
@@ -419,6 +435,28 @@ class DesignInputs(param.Parameterized):
             low, high = self._reach.get(name, (field.low, field.high))
             self._reach[name] = min(low, shown), max(high, shown)
 
+    def _surroundings(self, given):
+        """Return what was chosen of vehicle, axles and ground, and what was refused of it, by name."""
+        values, refused = {}, {}
+        for name in SURROUNDINGS:
+            if name in given:
+                if given[name] in surroundings.CHOICES[name].values():
+                    now = {each: getattr(self, each) for each in SURROUNDINGS} | values
+                    values |= surroundings.choose(name, given[name], now)
+                elif given[name] != surroundings.OWN:
+                    refused[name] = "choose one of what is offered"
+        return values, refused
+
+    def _refuse_apart(self, values, refused):
+        """Refuse values, each of them allowed, that do not go with a study's own axles."""
+        try:
+            design_of(self.to_values() | values)
+        except tig.DesignError as error:
+            words = f"{surroundings.LABELS['axle_positions'].lower()} and speed then need {error.allowed}"
+            for name in AXLES & values.keys():
+                refused[name] = words
+                del values[name]
+
     @param.depends("two_stage", watch=True)
     def _forget_second_stage(self):
         if not self.two_stage:
@@ -427,6 +465,10 @@ class DesignInputs(param.Parameterized):
     @param.depends(*PHYSICAL, watch=True)
     def _note_modified(self):
         self.modified = self.to_design() != self.preset_design
+
+
+AXLES = {"axle_positions", "speed", "fastener_spacing"}
+"""Inputs of which not all values go together."""
 
 
 def check_values(values):
@@ -444,13 +486,21 @@ class GainDefinition(param.Parameterized):
     )
     reference = param.Selector(
         default="line",
-        objects={"Straight line (paper)": "line", "Rigid track": "rigid"},
+        objects={
+            "Straight line (paper)": "line",
+            "Rigid track": "rigid",
+            "Very stiff track, same ground": "stiff",
+        },
         label="Against",
     )
 
     def gain(self, solution):
         """Return the insertion gain of a solution (trackig_core.InsertionGain), computed once."""
-        return solution.gain_for(self.reference, self.summation)
+        return solution.gain_for(self.reference_of(solution.design), self.summation)
+
+    def reference_of(self, design):
+        """Return the reference of a design (str): the chosen one, or the one that its ground leaves."""
+        return reference_for(design, self.reference)
 
     def levels_of(self, spectrum, solution):
         """Return the insertion gain of another spectrum of the design that was solved.
@@ -467,10 +517,12 @@ class GainDefinition(param.Parameterized):
         numpy.ndarray (21,)
             Insertion gain [dB].
         """
+        reference = self.reference_of(solution.design)
         return tig.insertion_gain(
             spectrum,
             solution.design,
             solution.natural_frequencies.loaded_track,
-            reference=self.reference,
+            reference=reference,
             summation=self.summation,
+            stiff=solution.stiff_spectrum(solution.design) if reference == "stiff" else None,
         ).levels

@@ -165,7 +165,10 @@ class Outcome(param.Parameterized):
     )
     problem = param.String(default="", doc="Why the picture is not that of the inputs; empty when it is.")
 
+    asked = param.Parameter(default=None, doc="The design whose run is long, was stopped, or failed.")
+
     @property
     def stale(self):
         """Whether the picture is that of earlier inputs, and will be for a while."""
-        return bool(self.problem) or self.progress is not None
+        lasts = bool(self.problem) or self.progress is not None
+        return lasts and (self.summary is None or self.summary.design != self.asked)

@@ -13,10 +13,12 @@ from dashboard.fields import (
     NEWTON_PER_METRE,
     NUMBERS,
     SECOND_STAGE,
+    SURROUNDINGS,
     to_display,
     to_si,
 )
 from dashboard.formats import quantity_text
+from dashboard.session import surroundings
 from trackig_core.track.design import measured_curves
 
 OWN_RAIL = "own"
@@ -25,7 +27,7 @@ OWN_RAIL = "own"
 DEFAULTS = {
     each.name: each.default
     for each in dataclasses.fields(tig.TrackDesign)
-    if each.name not in (*NUMBERS, "rail")
+    if each.name not in (*NUMBERS, *SURROUNDINGS, "rail")
 }
 """What a design has beside its usual numbers, and what it is unless somebody says otherwise."""
 
@@ -112,6 +114,8 @@ def with_special(fields, special):
 
 def input_text(design, field):
     """Return a field of a design as reports and tables show it, its unit left to the label."""
+    if field in surroundings.OFF:
+        return surroundings.text(design, field)
     value = getattr(design, field)
     if value is None:
         return "in the stiffness table" if _has_own_loss(design, field) else "–"

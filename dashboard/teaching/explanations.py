@@ -329,6 +329,7 @@ def definitions(design):
     Definitions
         Levels and sentences.
     """
+    design, also = (design, ()) if design.ground is None else (design.replace(ground=None), (ON_RIGID,))
     solution = tig.solve(design, "exact")
     levels = {
         f"{summation}_{reference}": solution.gain_for(reference, summation).levels
@@ -351,6 +352,7 @@ def definitions(design):
             "supports share the load; the rigid track passes the whole load at one place. The coherent "
             f"force has no such step: line and rigid track are {abs(coherent_step):.2f} dB apart for it.",
             "The wheel always stands over a support: this model knows no other place for it.",
+            *also,
         ),
         (
             f"On supports of {to_display('pad_stiffness', STIFF):,.0f} kN/mm the wheel still bounces on its "
@@ -364,6 +366,13 @@ def definitions(design):
             "the peak.",
         ),
     )
+
+
+ON_RIGID = (
+    "All this is drawn for the same track on rigid ground. On ground that yields neither line nor rigid "
+    "track is a reference: the ground's own amplification would count as the track's."
+)
+"""What is said of a design whose own ground yields."""
 
 
 def _about_sums(differences, waves_begin):
@@ -426,6 +435,8 @@ def lumped_vs_beam(design, reference, summation):
             f"{frequency_text(tig.cut_on(design)[0])} on this track, "
             f"{'two masses on springs describe' if design.two_stage else 'one mass on a spring describes'} "
             "it well; above it vibration travels along the rail, and the lumped model has no rail.",
+            "It is the last rung of the ladder in “What was left out”, where vehicle, axles and ground are "
+            "put back too.",
         ),
     )
 
@@ -482,15 +493,23 @@ def shape_words(shape):
     str
         Sentences.
     """
-    rail = shape.rail[shape.rail.shape[0] // 2, 0]
-    wheel = shape.wheel[0]
-    amounts = f"the wheel moves {_times(wheel)}, the rail under it {_times(rail)}"
+    at = shape.wheel_position[0]
+    wheel, rail = shape.wheel[0], _nearest(shape.position, shape.rail, at)
+    which = "the wheel" if shape.wheel_position.size == 1 else "the first wheel"
+    amounts = f"{which} moves {_times(wheel)}, the rail under it {_times(rail)}"
     phases = f"Wheel and rail move {_phase(wheel, rail)}"
     if shape.block is not None:
-        block = shape.block[shape.block.shape[0] // 2, 0]
+        block = _nearest(shape.support_position, shape.block, at)
         amounts += f", the block {_times(block)}"
         phases += f"; rail and block {_phase(rail, block)}"
+    if shape.foot is not None:
+        amounts += f", the foot on the ground {_times(_nearest(shape.support_position, shape.foot, at))}"
     return f"At {frequency_text(float(shape.frequency[0]))} {amounts} the roughness. {phases}."
+
+
+def _nearest(positions, moved, at):
+    """Return the displacement of what stands nearest to a place [m], at the first frequency."""
+    return moved[np.abs(positions - at).argmin(), 0]
 
 
 def _times(movement):

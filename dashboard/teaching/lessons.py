@@ -41,7 +41,7 @@ import param
 
 import trackig_core as tig
 from dashboard import assets
-from dashboard.fields import PHYSICAL
+from dashboard.fields import PHYSICAL, SURROUNDINGS
 from dashboard.session.inputs import DesignInputs, values_of
 from dashboard.teaching.quantities import QuantityError, read_claim, read_placeholder
 
@@ -388,7 +388,7 @@ class _Reader:
         values = self._value(front, key, dict, f"a table [{key}] of sliders and their values")
         if not values:
             raise self._error(f"[{key}] is empty: name a slider and its value", f"[{key}]")
-        names = ("preset", *PHYSICAL)
+        names = ("preset", *(each for each in PHYSICAL if each not in SURROUNDINGS))
         for name in values:
             if name not in names:
                 near = difflib.get_close_matches(name, names, n=1)

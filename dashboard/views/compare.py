@@ -118,7 +118,7 @@ class Compare(Tab):
             return
         base = assessment.base
         self.likeness.show()
-        self.gains.name_axis(gain_axis(self._definition))
+        self.gains.name_axis(gain_axis(self._definition, *(each.design for each in assessment.shown)))
         self.gains.show(assessment.shown)
         self.differences.show(base, [each for each in assessment.shown if each is not base])
         self.table.object = table_html(

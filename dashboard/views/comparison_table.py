@@ -11,6 +11,7 @@ import trackig_core as tig
 from dashboard import formats
 from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, EXTRAS, LOAD, six_figures
 from dashboard.figures.swatches import swatch_svg
+from dashboard.session import surroundings
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.special import input_text, rail_text
 
@@ -81,6 +82,9 @@ def _parameter_rows(results, base):
         if name not in LOAD and _is_told(name, results):
             yield field.labelled, [_parameter_cell(name, each.design, base.design) for each in results]
     yield DesignInputs.param.rail.label, [(rail_text(each.design.rail), "") for each in results]
+    for name, label in surroundings.LABELS.items():
+        if any(getattr(each.design, name) != surroundings.OFF[name] for each in results):
+            yield label, [(surroundings.text(each.design, name), "") for each in results]
 
 
 def _is_told(name, results):

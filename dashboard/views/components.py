@@ -53,9 +53,10 @@ def bokeh_pane(model):
     return pn.pane.Bokeh(model, sizing_mode="stretch_width", margin=0)
 
 
-def gain_axis(definition):
-    """Return what the insertion gain's axis is called, the choice named in it."""
-    return f"IG, dB ({SUMMATION_AXIS[definition.summation]} / {definition.reference})"
+def gain_axis(definition, *designs):
+    """Return what the insertion gain's axis is called: the choice, and what designs are compared with."""
+    references = dict.fromkeys(map(definition.reference_of, designs)) or [definition.reference]
+    return f"IG, dB ({SUMMATION_AXIS[definition.summation]} / {' or '.join(references)})"
 
 
 SUMMATION_AXIS = {"energy": "energy", "coherent": "coherent"}

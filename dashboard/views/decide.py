@@ -597,7 +597,8 @@ class Search(Asked):
             for name in names
         ]
         axes = [_axis(name) for name in found.objectives]
-        levels = found.many.gain_for(self.definition.reference, self.definition.summation)
+        reference = self.definition.reference_of(found.many.design(0))
+        levels = found.many.gain_for(reference, self.definition.summation)
         self.cloud.show(
             found,
             levels,

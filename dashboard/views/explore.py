@@ -3,6 +3,8 @@
 All are redrawn together, from the same solution.
 """
 
+import html
+
 import panel as pn
 import panel_material_ui as pmui
 
@@ -60,6 +62,7 @@ class Explore(Tab):
             on_click=lambda _: pins.param.update(alone=False),
             margin=(0, 12, 0, 0),
         )
+        self.reference_words = pmui.Typography("", variant="body2", visible=False, margin=(0, 14, 4, 14))
         self.choices = [
             pn.widgets.Select.from_param(
                 parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[theme.SELECT_CSS]
@@ -77,13 +80,22 @@ class Explore(Tab):
 
     def _show(self):
         results = self._assessment.results
-        self.insertion_gain.name_axis(gain_axis(self._definition))
+        self.insertion_gain.name_axis(gain_axis(self._definition, self._assessment.current.design))
+        self._say_reference()
         if self._assessment.current.summary is None:
             return
         if results is not self._drawn:
             self._drawn = results
             self._show_forces()
         self._show_gain()
+
+    def _say_reference(self):
+        """Say where another reference than the chosen one is in force, and why."""
+        designs = {each.name: each.design for each in self._assessment.results if each.shown}
+        wanted = self._definition.reference
+        yielding = [name for name, each in designs.items() if self._definition.reference_of(each) != wanted]
+        words = f"{html.escape(', '.join(yielding))}: {YIELDING_WORDS}" if yielding else ""
+        self.reference_words.param.update(object=words, visible=bool(words))
 
     def _show_forces(self):
         current = self._assessment.current
@@ -153,6 +165,7 @@ class Explore(Tab):
                 sizing_mode="stretch_width",
                 margin=0,
             ),
+            self.reference_words,
             self.verdict,
         ]
         yield
@@ -169,6 +182,11 @@ FIDELITY_CHIPS = {
     "paper": ("paper's run", "outlined"),
 }
 """What the chip beside the title says of each fidelity, and how it looks."""
+
+YIELDING_WORDS = (
+    "against a very stiff track on the same ground. Where the ground yields, neither line nor rigid track is "
+    "a reference: the ground's own amplification would count as the track's."
+)
 
 GAIN_TITLE = "Insertion gain"
 GAIN_WORDS = (

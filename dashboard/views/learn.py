@@ -9,12 +9,13 @@ import panel as pn
 import panel_material_ui as pmui
 
 from dashboard import theme
+from dashboard.views.ladder import LeftOut
 from dashboard.views.lessons import Lessons
 from dashboard.views.motion import Motion
 from dashboard.views.subjects import Damping, Definitions, LumpedVsBeam, Resonances, Slopes
 from dashboard.views.tab import Tab
 
-EXPLAINING = (Motion, Resonances, Slopes, Damping, Definitions, LumpedVsBeam)
+EXPLAINING = (Motion, Resonances, Slopes, Damping, Definitions, LumpedVsBeam, LeftOut)
 """Subjects beside the lessons, in the order of the menu."""
 
 

@@ -111,7 +111,7 @@ class Lessons(Subject):
             return
         _, start = answer
         chosen = self.definition
-        self.figure.name_axis(gain_axis(chosen))
+        self.figure.name_axis(gain_axis(chosen, summary.design))
         self.figure.show(level=chosen.gain(summary.solution).levels, start=chosen.gain(start).levels)
 
     def show(self, answer):

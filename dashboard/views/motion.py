@@ -34,6 +34,11 @@ FILM_WORDS = (
 )
 
 
+FEET_WORDS = (
+    "The supports' feet move on this ground too; a run does not record them, the steady vibration does."
+)
+
+
 class Motion(Subject):
     """Rail, wheel and blocks in motion."""
 
@@ -44,7 +49,7 @@ class Motion(Subject):
         super().__init__(outcome, definition)
         self.film, self.shape = FilmPlayer(), ShapePlayer()
         self.pick = PickFigure(frequency=100.0)
-        self.shape_words = words()
+        self.film_words, self.shape_words = words(), words()
         self.frequency = QuickSlider(
             label="Frequency, Hz",
             start=0,
@@ -92,6 +97,8 @@ class Motion(Subject):
     def show(self, answer):
         """Show a film."""
         self.film.show(answer)
+        _, design = self.question.answered
+        self.film_words.object = FILM_WORDS if design.ground is None else f"{FILM_WORDS} {FEET_WORDS}"
 
     def _jump(self, which):
         def jump():
@@ -116,7 +123,7 @@ class Motion(Subject):
         summary = self.outcome.summary
         if summary is None or not self.question.looked_at:
             return
-        self.pick.name_axis(gain_axis(self.definition))
+        self.pick.name_axis(gain_axis(self.definition, summary.design))
         self.pick.show(level=self.definition.gain(summary.solution).levels)
         shape = tig.steady_shape(summary.design, float(self.pick.cursor.location))
         self.shape.show(shape)
@@ -125,10 +132,8 @@ class Motion(Subject):
 
     def __panel__(self):
         """Return what is put on the page."""
-        film_words = words()
-        film_words.object = FILM_WORDS
         return pmui.Column(
-            panel_of("After the step", self.problem, bokeh_pane(self.film.model), film_words),
+            panel_of("After the step", self.problem, bokeh_pane(self.film.model), self.film_words),
             panel_of(
                 "Steady vibration at one frequency",
                 bokeh_pane(self.pick.model),

@@ -17,6 +17,7 @@ from dashboard.client.exchange import COPYING, notify, opening
 from dashboard.compute.workers import workers
 from dashboard.persistence.exports import file_name, force_csv, gain_csv
 from dashboard.session.heading import Heading
+from dashboard.teaching import left_out
 from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, caption
 from dashboard.views.tab import Tab
 from trackig_core.names import LONGEST_TITLE, allowed, is_name
@@ -54,6 +55,7 @@ class SaveAndShare(Tab):
         self.gain = button("Insertion gain, CSV", "download", on_click=self._save_gain)
         self.force = button("Force, CSV", "download", on_click=self._save_force)
         self.report = button("Report, HTML", "description", on_click=self._save_report)
+        self.left_out = pmui.Switch(label=LEFT_OUT_LABEL, value=False, margin=(6, 12))
         self.sheet = button("Data sheet, HTML", "article", on_click=self._save_sheet)
         self.sheet_design = None
         self._sheet_place = pmui.Row(margin=0)
@@ -155,6 +157,7 @@ class SaveAndShare(Tab):
             study,
             summaries,
             self._snapshot.answers.pages,
+            self.left_out.value,
         )
 
     async def _save_sheet(self, *_):
@@ -213,7 +216,7 @@ class SaveAndShare(Tab):
         groups = (
             ("Share", LINK_WORDS, [self.copy], ()),
             ("Study", STUDY_WORDS, [self.study_name, self.save, self.open], [self.message]),
-            ("Report and curves", CURVE_WORDS, [self.report, self.gain, self.force], ()),
+            ("Report and curves", CURVE_WORDS, [self.report, self.gain, self.force, self.left_out], ()),
             ("Data sheet", SHEET_WORDS, [self._sheet_place, self.sheet], ()),
             ("Pictures", PICTURE_WORDS, self.pictures.values(), ()),
         )
@@ -232,12 +235,17 @@ class SaveAndShare(Tab):
 # plots are slow to load, and nobody waits for them who wants none
 
 
-def write_report(study, summaries, pages):
-    """Return the report of a study, as of today (str)."""
+def write_report(study, summaries, pages, with_left_out=False):
+    """Return the report of a study, as of today (str), with what the simplified model leaves out or not."""
     from dashboard.report.html_report import html_report
 
+    found = None
+    if with_left_out:
+        found = left_out.left_out(
+            study.design, left_out.OPENING_VEHICLE, left_out.OPENING_GROUND, study.view.summation
+        )
     today = datetime.date.today()
-    return html_report(study, summaries, date=today, version=tig.__version__, pages=pages)
+    return html_report(study, summaries, date=today, version=tig.__version__, pages=pages, left_out=found)
 
 
 def write_sheet(result, heading, specification, source):
@@ -269,6 +277,8 @@ PICTURES = (("gain", "Insertion gain"), ("difference", "Difference"), ("force", 
 
 MEDIA = {"png": "image/png", "svg": "image/svg+xml"}
 """Media type of each form of picture."""
+
+LEFT_OUT_LABEL = "Report with what the simplified model leaves out"
 
 SELECT_WIDTH = 280
 

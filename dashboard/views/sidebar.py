@@ -10,11 +10,27 @@ from panel.viewable import Viewer
 import trackig_core as tig
 from dashboard.client.exchange import notify
 from dashboard.client.quantities import Quantities
-from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, INPUTS, NUMBERS, RAIL_FIELDS, SECOND_STAGE
+from dashboard.fields import (
+    CLOSED_GROUPS,
+    EVERY_FIELD,
+    GROUND,
+    GROUPS,
+    INPUTS,
+    NUMBERS,
+    RAIL_FIELDS,
+    SECOND_STAGE,
+    SURROUNDINGS,
+    SUSPENDED,
+)
+from dashboard.session import surroundings
 from dashboard.session.inputs import display_values, values_of
 from dashboard.session.special import OWN_RAIL, curve_text, is_curve, rail_text
 
-FIRST_ROWS = {"Block and boot": ("two_stage",)}
+FIRST_ROWS = {
+    "Block and boot": ("two_stage",),
+    SUSPENDED: ("suspension", "axle_positions"),
+    GROUND: ("ground",),
+}
 LAST_ROWS = {"Track": ("rail",)}
 """Inputs that are no numbers, by the group that they begin or end."""
 
@@ -95,9 +111,9 @@ class Controls(Viewer):
         marks = display_values(inputs.preset_design)
         self.quantities.state = {
             "number": self._number,
-            "values": inputs.to_shown(),
+            "values": shown_values(inputs),
             "refused": inputs.refused,
-            "disabled": [] if inputs.two_stage else list(SECOND_STAGE),
+            "disabled": disabled(inputs),
             "words": {"rail": rail_text(inputs.special["rail"])} if "rail" in inputs.special else {},
             "hidden": [] if "rail" in inputs.special else list(RAIL_FIELDS),
             "marks": {name: marks[name] for name in NUMBERS if name in marks},
@@ -137,7 +153,7 @@ def groups(inputs):
     """
     track = [_choice(inputs, "preset", replaces=True), {"kind": "departure", "label": "Back to Table 1"}]
     found = [{"title": "", "closed": False, "kinds": [], "fields": track}]
-    for title in dict.fromkeys(field.group for field in EVERY_FIELD.values()):
+    for title in GROUPS:
         rows = [_other(inputs, name) for name in FIRST_ROWS.get(title, ())]
         rows += [_number(field) for field in EVERY_FIELD.values() if field.group == title]
         rows += [_other(inputs, name) for name in LAST_ROWS.get(title, ())]
@@ -174,15 +190,45 @@ def chips(inputs):
     return {name: words for name, words in found.items() if inputs.two_stage or name not in SECOND_STAGE}
 
 
+def shown_values(inputs):
+    """Return what the controls show, by name: numbers [display units], switches, and keys of choices."""
+    around = {name: getattr(inputs, name) for name in SURROUNDINGS}
+    return inputs.to_shown() | {name: surroundings.chosen(name, around) for name in SURROUNDINGS}
+
+
+def disabled(inputs):
+    """Return the names of inputs that mean nothing for the design (list of str).
+
+    A single-stage track has no second stage, and one wheel follows no other at any speed.
+    """
+    second_stage = [] if inputs.two_stage else [*SECOND_STAGE]
+    return [*second_stage, *([] if len(inputs.axle_positions) > 1 else ["speed"])]
+
+
 def _number(field):
     shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words", "blank")
     return {"kind": "number", **{name: getattr(field, name) for name in shown}}
 
 
 def _other(inputs, name):
+    if name in SURROUNDINGS:
+        return _surroundings(name)
     if isinstance(getattr(inputs, name), bool):
         return {"kind": "switch", "name": name, "label": inputs.param[name].label}
     return _choice(inputs, name)
+
+
+def _surroundings(name):
+    """Return a choice from the catalogue, which says a study's own values too while there are any."""
+    return {
+        "kind": "choice",
+        "name": name,
+        "label": surroundings.LABELS[name],
+        "options": [*map(list, surroundings.CHOICES[name].items()), ["the study's own", surroundings.OWN]],
+        "given": surroundings.OWN,
+        "words": surroundings.WORDS[name],
+        "replaces": False,
+    }
 
 
 def _choice(inputs, name, replaces=False):

@@ -80,6 +80,10 @@ def status_html(outcome):
 COMPILING = "Compiling the solver for this computer; it takes some seconds, at the first start only …"
 
 
+MORE_THAN_SIMPLIFIED = "vehicle, axles or ground stand"
+"""Why a force takes longer than that of the simplified model."""
+
+
 def status_words(outcome):
     """Return what an outcome has to say.
 
@@ -99,7 +103,8 @@ def status_words(outcome):
     summary = outcome.summary
     took = formats.duration_text(summary.seconds)
     if summary.solution.fidelity == "exact":
-        words = f"Exact curve, solved in {took}; little is lost here, so that its force takes longer"
+        why = "little is lost" if summary.design == summary.design.simplified else MORE_THAN_SIMPLIFIED
+        words = f"Exact curve, solved in {took}; {why} here, so that its force takes longer"
     elif summary.solution.fidelity == "live":
         words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
     elif outcome.from_cache:

@@ -62,14 +62,18 @@ class Subject(Viewer):
         )
         self.question.param.watch(self._complain, "problem")
         self.question.param.watch(self._answered, "answer")
-        outcome.param.watch(self._follow, "summary")
+        outcome.param.watch(self._follow, ["summary", "asked"])
         definition.param.watch(self._follow, ["reference", "summation"])
 
     def _follow(self, *_):
         summary = self.outcome.summary
-        if summary is None or (self.at_rest_only and summary.solution.fidelity != "paper"):
+        if summary is None or (self.at_rest_only and not self._is_at_rest(summary)):
             return
         self.question.asked = self.ask(summary.design)
+
+    def _is_at_rest(self, summary):
+        """Return whether a picture is the last one of its inputs, or will be for long."""
+        return summary.solution.fidelity == "paper" or summary.design == self.outcome.asked
 
     def _complain(self, *_):
         self.problem.param.update(object=self.question.problem, visible=bool(self.question.problem))
@@ -86,10 +90,9 @@ class Subject(Viewer):
         """Draw an answer."""
         raise NotImplementedError
 
-    @property
-    def gain_arguments(self):
-        """Which insertion gain is shown, as arguments of an explanation."""
-        return self.definition.reference, self.definition.summation
+    def gain_arguments(self, design):
+        """Return which insertion gain is shown of a design, as arguments of an explanation."""
+        return self.definition.reference_of(design), self.definition.summation
 
 
 def words(*_):
@@ -194,11 +197,11 @@ class Slopes(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.slopes, design, *self.gain_arguments
+        return explanations.slopes, design, *self.gain_arguments(design)
 
     def show(self, answer):
         """Draw curves and asymptotes."""
-        self.figure.name_axis(gain_axis(self.definition))
+        self.figure.name_axis(gain_axis(self.definition, self.outcome.summary.design))
         levels = {"level": answer.levels}
         if answer.one_stage_levels is not None:
             levels["one_stage"] = answer.one_stage_levels
@@ -264,7 +267,7 @@ class Damping(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.damping, design, *self.gain_arguments
+        return explanations.damping, design, *self.gain_arguments(design)
 
     def show(self, answer):
         """Draw the laws and what they do."""
@@ -273,7 +276,7 @@ class Damping(Subject):
             drawn = dict.fromkeys(("pad", "boot", "pad_stated", "boot_stated"), explanations.NOT_THERE)
             drawn |= {part: getattr(curve, of) for part, curve in curves.items() if curve is not None}
             figure.show(explanations.DAMPED, **drawn)
-        self.gain.name_axis(gain_axis(self.definition))
+        self.gain.name_axis(gain_axis(self.definition, self.outcome.summary.design))
         self.gain.show(**{curve.column: row for curve, row in zip(self.CURVES, answer.levels, strict=True)})
         say(self.words, answer.words)
 
@@ -353,11 +356,11 @@ class LumpedVsBeam(Subject):
 
     def ask(self, design):
         """Return the question about a design."""
-        return explanations.lumped_vs_beam, design, *self.gain_arguments
+        return explanations.lumped_vs_beam, design, *self.gain_arguments(design)
 
     def show(self, answer):
         """Draw both, and shade where they agree."""
-        self.figure.name_axis(gain_axis(self.definition))
+        self.figure.name_axis(gain_axis(self.definition, self.outcome.summary.design))
         self.figure.show_comparison(answer.comparison)
         say(self.words, answer.words)
 

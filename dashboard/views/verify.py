@@ -114,7 +114,8 @@ class Verify(Tab):
 
     def _show_run(self, *_):
         verified, chosen = self._outcome.verified, self._definition
-        self.comparison.name_axis(gain_axis(chosen))
+        solved = [] if verified is None else [verified.summary.design]
+        self.comparison.name_axis(gain_axis(chosen, *solved))
         if verified is None:
             self.words["run"].object = "Not checked yet."
             return

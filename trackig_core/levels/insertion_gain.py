@@ -113,6 +113,11 @@ def own_reference(design: TrackDesign) -> str:
     return "line" if design.ground is None else "stiff"
 
 
+def reference_for(design: TrackDesign, wanted: str) -> str:
+    """Return the reference that is wanted (str), or on ground that yields the only one that has a meaning."""
+    return wanted if design.ground is None else "stiff"
+
+
 def rigid_band_energy(design: TrackDesign, step: float, bands: Bands = ONE_THIRD_OCTAVES) -> RealArray:
     """Return the energy that a rigid track passes in each band after a step of roughness.
 

@@ -103,6 +103,7 @@ RANGES = {
         *RAIL_FIELDS,
         *DESIGN_FIELDS,
         *STATIC_FIELDS,
+        WHEELBASE,
         *SUSPENSION_FIELDS,
         *GROUND_FIELDS,
         *AXLE_FIELDS,

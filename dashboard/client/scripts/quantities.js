@@ -128,6 +128,24 @@ class Scale {
   }
 }
 
+// A button, and the words that it shows.
+function helpOf(field) {
+  const words = element("p", {className: "words", id: `words-${field.name}`, hidden: true}, field.words)
+  const button = element(
+    "button",
+    {
+      type: "button", className: "help", title: field.words, "aria-label": `About ${field.label}`,
+      "aria-expanded": "false", "aria-controls": words.id,
+    },
+    "?",
+  )
+  button.addEventListener("click", () => {
+    words.hidden = !words.hidden
+    button.setAttribute("aria-expanded", String(!words.hidden))
+  })
+  return [button, words]
+}
+
 class Quantity {
   constructor(field, flow, model) {
     this.field = field
@@ -155,29 +173,13 @@ class Quantity {
     this.unit = element("span", {className: unitClass, "aria-hidden": "true"}, field.unit)
     this.frame = element("div", {className: "box"}, this.box, this.unit)
     this.advice = element("p", {className: "advice", id: `advice-${field.name}`, "aria-live": "polite"})
+    const [help, words] = helpOf(field)
     this.root = element(
       "div", {className: "quantity"},
-      element("div", {className: "name"}, element("span", {className: "label"}, field.label), ...this.help()),
-      this.track, this.chip, this.frame, this.edges, this.words, this.advice,
+      element("div", {className: "name"}, element("span", {className: "label"}, field.label), help),
+      this.track, this.chip, this.frame, this.edges, words, this.advice,
     )
     this.listen()
-  }
-
-  help() {
-    this.words = element("p", {className: "words", id: `words-${this.field.name}`, hidden: true}, this.field.words)
-    const button = element(
-      "button",
-      {
-        type: "button", className: "help", title: this.field.words, "aria-label": `About ${this.field.label}`,
-        "aria-expanded": "false", "aria-controls": this.words.id,
-      },
-      "?",
-    )
-    button.addEventListener("click", () => {
-      this.words.hidden = !this.words.hidden
-      button.setAttribute("aria-expanded", String(!this.words.hidden))
-    })
-    return [button]
   }
 
   listen() {
@@ -353,12 +355,16 @@ class Choice {
       flow.send()
     })
     const label = element("span", {className: "over", "aria-hidden": "true"}, field.label)
-    this.root = element("div", {className: "choice"}, label, this.select)
+    this.root = element("div", {className: "choice"}, label, this.select, ...(field.words === undefined ? [] : helpOf(field)))
+    this.root.classList.toggle("explained", field.words !== undefined)
   }
 
+  // What can only be given, not chosen, is offered while it is there.
   show({values, words}) {
-    this.select.value = values[this.field.name]
-    this.field.options.forEach(([usual, value], number) => {
+    const value = values[this.field.name]
+    for (const option of this.select.options) option.hidden = option.value === this.field.given && option.value !== value
+    this.select.value = value
+    this.field.options.forEach(([usual], number) => {
       const option = this.select.options[number]
       option.textContent = option.selected ? words[this.field.name] ?? usual : usual
     })

@@ -12,6 +12,7 @@ from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
+from dashboard.session.shelf import Shelf
 from dashboard.views.sidebar import Controls
 
 WAIT = 60
@@ -26,7 +27,7 @@ class Page:
         self.inputs, self.definition = DesignInputs(), GainDefinition()
         self.assessment = Assessment(self.inputs, Outcome(), self.definition, Pins(), pictures)
         self.feasibility = Feasibility(self.inputs, self.definition, self.assessment)
-        self.panel = Controls(self.inputs, Outcome(), self.feasibility).quantities
+        self.panel = Controls(self.inputs, Outcome(), Shelf(), feasibility=self.feasibility).quantities
 
     def do(self, **changes):
         """Change inputs or the specification, and wait until everything rests."""

@@ -11,7 +11,7 @@ import pytest
 import trackig_core as tig
 from dashboard.compute import runner as runner_module
 from dashboard.compute.latest import readable
-from dashboard.compute.runner import STOPPED, Runner
+from dashboard.compute.runner import EXACT_ALL_THE_SAME, STOPPED, Runner
 from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, solve_summary
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
@@ -438,6 +438,22 @@ def test_a_failure_is_told_and_leaves_the_last_good_picture(make_store, fake_pic
     assert not session.outcome.busy
     session.change(pad_stiffness=301)
     assert session.outcome.problem == ""
+
+
+def test_the_exact_curve_stands_where_a_run_with_a_vehicle_is_too_large(make_store, fake_picture):
+    def solve(key, *_):
+        if key[1] != AT_ONCE:
+            raise tig.RunTooLargeError("this run would take an hour")
+        return fake_picture(key[0], fidelity=key[1])
+
+    session = Session(make_store(solve))
+    session.change(ground=tig.GROUNDS["rock"])
+    outcome = session.outcome
+    assert "this run would take an hour" in outcome.problem
+    assert outcome.problem.endswith(EXACT_ALL_THE_SAME)
+    assert outcome.summary.solution.fidelity == "exact"
+    assert outcome.summary.design.ground == tig.GROUNDS["rock"]
+    assert not outcome.stale
 
 
 def test_a_refused_run_is_told_in_the_core_s_words():

@@ -17,7 +17,7 @@ def test_a_film_is_sent_whole_and_bounded(design):
     player.show(motion)
     sent = player.film.data
     np.testing.assert_allclose(sent["time"], 1000 * motion.time)
-    np.testing.assert_allclose(sent["wheel"], 1e6 * motion.wheel, rtol=1e-6)
+    np.testing.assert_allclose(sent["wheel_0"], 1e6 * motion.wheel, rtol=1e-6)
     for element in (0, 5, 36):
         np.testing.assert_allclose(sent[f"rail_{element}"], 1e6 * motion.rail[:, element], rtol=1e-6)
     if design.two_stage:
@@ -45,7 +45,7 @@ def test_the_first_instant_is_drawn_to_scale(design):
         np.testing.assert_allclose(supports["top"] - supports["bottom"], figures.BLOCK_HEIGHT)
     else:
         assert np.isnan(supports["block"]).all()
-        np.testing.assert_array_equal(supports["top"], figures.GROUND_AT)
+        np.testing.assert_array_equal(supports["top"], figures.FOOT_AT)
 
 
 def test_the_scale_bar_is_as_long_as_it_says():
@@ -57,17 +57,52 @@ def test_the_scale_bar_is_as_long_as_it_says():
     assert (bar["high"][0] - bar["low"][0]) / scale == pytest.approx(float(number))
 
 
-def test_a_shape_is_sent_as_the_twin_has_it():
+def of_part(player, name):
+    sent = player.parts[name].data
+    return np.array(sent["real"]) + 1j * np.array(sent["imag"])
+
+
+def test_a_shape_is_sent_as_the_library_has_it():
     player, shape = ShapePlayer(), tig.steady_shape(BLOCK, 80.0)
     player.show(shape)
-    rail = np.array(player.rail.data["real"]) + 1j * np.array(player.rail.data["imag"])
-    np.testing.assert_allclose(rail, shape.rail[36:, 0])
-    block = np.array(player.block.data["real"]) + 1j * np.array(player.block.data["imag"])
-    np.testing.assert_allclose(block, shape.block[12:, 0])
+    np.testing.assert_allclose(of_part(player, "rail"), shape.rail[:, 0])
+    np.testing.assert_allclose(of_part(player, "block"), shape.block[:, 0])
+    assert of_part(player, "foot").size == 0
     scale = player.view.facts.data["scale"][0]
     np.testing.assert_allclose(-player.view.rail.data["y"] / scale, shape.rail[:, 0].real, atol=1e-12)
+    np.testing.assert_array_equal(player.view.supports.data["ground"], figures.FOOT_AT)
     player.show(tig.steady_shape(SLAB, 80.0))
-    assert len(player.block.data["real"]) == 0
+    assert of_part(player, "block").size == 0
+
+
+@pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two stages", "one stage"])
+def test_every_axle_stands_on_its_element_and_every_foot_on_its_spring(design):
+    design = design.replace(axle_positions=(0.0, 2.1), speed=20.0, ground=tig.GROUNDS["soft clay"])
+    player, shape = ShapePlayer(), tig.steady_shape(design, 40.0)
+    player.show(shape)
+    view = player.view
+    scale, supports, wheels = view.facts.data["scale"][0], view.supports.data, view.wheel.data
+    np.testing.assert_allclose(wheels["x"], shape.wheel_position)
+    np.testing.assert_allclose((figures.WHEEL_AT - wheels["y"]) / scale, shape.wheels[:, 0].real)
+    elements = np.searchsorted(shape.position, shape.wheel_position - 1e-9)
+    np.testing.assert_allclose(-wheels["rail"] / scale, shape.rail[elements, 0].real)
+    np.testing.assert_allclose((figures.FOOT_AT - supports["ground"]) / scale, shape.foot[:, 0].real)
+    assert view.floor.location == figures.FLOOR_AT < supports["ground"].min()
+    if not design.two_stage:
+        np.testing.assert_array_equal(supports["top"], supports["ground"])
+    player.show(tig.steady_shape(BLOCK, 40.0))
+    assert view.floor.location == figures.FOOT_AT
+
+
+def test_a_film_of_several_wheels_is_sent_whole_and_drawn_unmirrored():
+    player = FilmPlayer()
+    motion = tig.film(BLOCK.replace(axle_positions=(0.0, 2.1), speed=20.0))
+    player.show(motion)
+    view, at = player.view, np.argmin(np.abs(motion.time))
+    np.testing.assert_allclose(player.film.data["wheel_1"], 1e6 * motion.wheels[:, 1], rtol=1e-5, atol=1e-4)
+    scale = view.facts.data["scale"][0]
+    np.testing.assert_allclose(-view.rail.data["y"] / scale, 1e6 * motion.rail[at], atol=1e-9)
+    np.testing.assert_allclose(view.wheel.data["x"], motion.wheel_position)
 
 
 def test_nothing_that_the_browser_moves_comes_back():

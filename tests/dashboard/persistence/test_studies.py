@@ -43,6 +43,9 @@ any_values = st.fixed_dictionaries(
         **{name: number(name) for name in NUMBERS},
         "special": st.just({}),
         **{name: extra(name) for name in EXTRAS},
+        "suspension": st.sampled_from([None, tig.VEHICLES["metro"].suspension]),
+        "axle_positions": st.sampled_from([(0.0,), (0.0, 2.5)]),
+        "ground": st.sampled_from([None, *tig.GROUNDS.values()]),
     }
 ).map(as_kept)
 any_view = st.fixed_dictionaries(

@@ -11,8 +11,10 @@ import pytest
 
 import trackig_core as tig
 from dashboard import formats, theme
+from dashboard.formats import signed_text
 from dashboard.report.html_report import html_report
 from dashboard.session.results import SolutionSummary
+from dashboard.teaching.left_out import left_out
 
 LOW, HIGH = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["booted-block-high-mass"]
 HOSTILE = '<script>alert(1)</script>$\\frac "&</svg>'
@@ -288,3 +290,23 @@ def test_forces_are_drawn_in_kilonewton_over_milliseconds(plots, summaries):
     assert axes.get_xlim() == (-5, 250)
     assert axes.get_xlabel() == "Time since the step, ms"
     assert axes.get_ylabel() == "Force into the ground, kN"
+
+
+def test_what_the_simplified_model_leaves_out_is_reported_on_request(study, summaries):
+    found = left_out(study.design, "metro", "rock", "energy")
+    page = html_report(study, summaries, date=DAY, version="1", left_out=found)
+    assert found.ladder.sentence in html.unescape(page)
+    cells = [signed_text(rung.difference[-1]) for rung in found.ladder.rungs[1:]]
+    assert "".join(f"<td>{each}</td>" for each in cells) in page
+    assert "simplified model leaves out" not in html_report(study, summaries, date=DAY, version="1")
+
+
+def test_vehicle_and_ground_are_named_and_compared_with_what_has_a_meaning():
+    metro = tig.PRESETS["slab-track"].replace(
+        suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["soft clay"]
+    )
+    summary = SolutionSummary.of(tig.solve(metro, "exact"), 0.1)
+    page = html_report(tig.Study(design=metro), {metro: summary}, date=DAY, version="1")
+    assert "metro (generic)" in page
+    assert "soft clay (generic)" in page
+    assert "relative to a very stiff track on the same ground" in page

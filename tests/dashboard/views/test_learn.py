@@ -13,6 +13,7 @@ from dashboard.compute.questions import Question, QuestionRunner
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.results import Outcome
 from dashboard.teaching.lessons import load_lessons
+from dashboard.views.ladder import LeftOut
 from dashboard.views.learn import Learn
 from dashboard.views.lessons import Lessons
 from dashboard.views.method import Method, method_html
@@ -96,7 +97,7 @@ def test_subjects_are_made_and_put_on_the_page_when_first_looked_at(inputs, outc
     learn.menu.active = 2
     assert isinstance(learn.subject, Resonances)
     assert not lessons.question.looked_at
-    assert [len(place.objects) for place in places] == [1, 0, 1, 0, 0, 0, 0]
+    assert [len(place.objects) for place in places] == [1, 0, 1, 0, 0, 0, 0, 0]
     learn.menu.active = 0
     assert learn.subject is lessons
     learn.look(False)
@@ -172,22 +173,64 @@ def test_the_ladder_shades_the_bands_that_agree(outcome, definition):
     np.testing.assert_allclose(subject.figure.good.data["left"], tig.BAND_EDGES[:-1][comparison.good_enough])
 
 
+def test_what_was_left_out_is_the_library_s_ladder(outcome, definition):
+    subject = looked_at(LeftOut(outcome, definition))
+    ladder = tig.analysis.ladder(BLOCK, "regional", "rock")
+    drawn = subject.figure.bands.data
+    np.testing.assert_allclose(drawn["ground"], ladder.rungs[-1].insertion_gain)
+    np.testing.assert_allclose(drawn["lumped"], ladder.one_dimensional.insertion_gain)
+    assert np.isnan(drawn["damping"]).all()
+    cells = subject.differences.cells.data
+    expected = [*(rung.difference for rung in ladder.rungs[1:]), ladder.one_dimensional.difference]
+    np.testing.assert_allclose(cells["difference"], np.concatenate(expected))
+    assert subject.differences.rungs.factors[0] == "one-dimensional: no rail"
+    assert ladder.sentence in subject.words.object
+    assert "no load moves along the track" in subject.words.object
+    assert "generic: rock" in subject.table.object
+    subject.ground.value = "soft clay"
+    soft = tig.analysis.ladder(BLOCK, "regional", "soft clay").rungs[-1].insertion_gain
+    np.testing.assert_allclose(subject.figure.bands.data["ground"], soft)
+
+
+def test_what_a_design_has_of_its_own_is_not_chosen(outcome, definition, fake_picture):
+    subject = looked_at(LeftOut(outcome, definition))
+    assert not subject.ground.disabled
+    outcome.summary = fake_picture(BLOCK.replace(ground=tig.GROUNDS["stiff clay"]))
+    assert subject.ground.disabled
+    assert not subject.vehicle.disabled
+    assert "its own: ground" in subject.own.object
+
+
+def test_motion_is_shown_while_a_long_run_goes_on(outcome, definition, fake_picture):
+    subject = looked_at(Motion(outcome, definition))
+    two = BLOCK.replace(axle_positions=(0.0, 2.1), ground=tig.GROUNDS["rock"])
+    outcome.summary = fake_picture(two, fidelity="exact")
+    assert "wheel_1" not in subject.film.film.data
+    outcome.asked = two
+    np.testing.assert_allclose(
+        subject.film.film.data["wheel_1"], 1e6 * tig.film(two).wheels[:, 1], rtol=1e-5, atol=1e-4
+    )
+    assert "does not record them" in subject.film_words.object
+
+
 def test_motion_follows_the_design_when_it_rests(outcome, definition, fake_picture):
     subject = looked_at(Motion(outcome, definition))
-    np.testing.assert_allclose(subject.film.film.data["wheel"], 1e6 * tig.film(BLOCK).wheel, rtol=1e-6)
+    np.testing.assert_allclose(subject.film.film.data["wheel_0"], 1e6 * tig.film(BLOCK).wheel, rtol=1e-6)
     softer = BLOCK.replace(boot_stiffness=14e6)
     outcome.summary = fake_picture(softer, fidelity="live")
-    np.testing.assert_allclose(subject.film.film.data["wheel"], 1e6 * tig.film(BLOCK).wheel, rtol=1e-6)
+    np.testing.assert_allclose(subject.film.film.data["wheel_0"], 1e6 * tig.film(BLOCK).wheel, rtol=1e-6)
     moving = tig.steady_shape(softer, subject.pick.cursor.location)
-    np.testing.assert_allclose(subject.shape.wheel.data["real"], moving.wheel.real)
+    np.testing.assert_allclose(subject.shape.parts["wheel"].data["real"], moving.wheel.real)
     outcome.summary = fake_picture(softer)
-    np.testing.assert_allclose(subject.film.film.data["wheel"], 1e6 * tig.film(softer).wheel, rtol=1e-6)
+    np.testing.assert_allclose(subject.film.film.data["wheel_0"], 1e6 * tig.film(softer).wheel, rtol=1e-6)
 
 
 def test_the_shape_follows_cursor_slider_and_buttons(outcome, definition):
     subject = looked_at(Motion(outcome, definition))
     subject.pick.cursor.location = 63.0
-    np.testing.assert_allclose(subject.shape.wheel.data["imag"], tig.steady_shape(BLOCK, 63.0).wheel.imag)
+    np.testing.assert_allclose(
+        subject.shape.parts["wheel"].data["imag"], tig.steady_shape(BLOCK, 63.0).wheel.imag
+    )
     assert "At 63.0 Hz" in subject.shape_words.object
     subject.frequency.value = 150
     assert subject.pick.cursor.location == pytest.approx(tig.BAND_EDGES[0] * 10**1.5)

@@ -3,7 +3,15 @@
 import pytest
 
 import trackig_core as tig
-from dashboard.fields import CLOSED_GROUPS, EVERY_FIELD, NUMBERS, RAIL_FIELDS, SECOND_STAGE
+from dashboard.fields import (
+    CLOSED_GROUPS,
+    EVERY_FIELD,
+    GROUPS,
+    NUMBERS,
+    RAIL_FIELDS,
+    SECOND_STAGE,
+    SURROUNDINGS,
+)
 from dashboard.session.inputs import DesignInputs, values_of
 from dashboard.session.results import Outcome
 from dashboard.session.shelf import Shelf
@@ -39,7 +47,8 @@ def give(panel, number=1, **values):
 
 def test_every_field_has_a_row_in_its_group(panel):
     rows = {row["name"]: (group, row) for group in panel.groups for row in group["fields"] if "name" in row}
-    assert set(rows) == {*EVERY_FIELD, *RAIL_FIELDS, "preset", "two_stage", "rail"}
+    assert set(rows) == {*EVERY_FIELD, *RAIL_FIELDS, *SURROUNDINGS, "preset", "two_stage", "rail"}
+    assert [group["title"] for group in panel.groups] == ["", *GROUPS]
     for name, field in EVERY_FIELD.items():
         group, row = rows[name]
         assert group["title"] == field.group
@@ -164,11 +173,21 @@ def test_changes_from_elsewhere_reach_the_panel(panel, inputs):
     assert panel.state["values"]["rail"] == "49E1"
 
 
-def test_single_stage_disables_block_and_boot_and_nothing_else(panel, inputs):
+def test_single_stage_disables_block_and_boot_and_one_wheel_its_speed(panel, inputs):
     inputs.two_stage = False
-    assert panel.state["disabled"] == list(SECOND_STAGE)
+    assert panel.state["disabled"] == [*SECOND_STAGE, "speed"]
     inputs.two_stage = True
+    assert panel.state["disabled"] == ["speed"]
+    give(panel, 1, axle_positions="bogie")
     assert panel.state["disabled"] == []
+
+
+def test_vehicle_axles_and_ground_are_shown_by_name_and_a_study_s_own_as_such(panel, inputs):
+    give(panel, 1, suspension="metro", ground="stiff clay")
+    shown = panel.state["values"]
+    assert [shown[name] for name in SURROUNDINGS] == ["metro", "none", "stiff clay"]
+    inputs.ground = tig.Ground(1e8, 1e4, 0.0)
+    assert panel.state["values"]["ground"] == "own"
 
 
 def test_modified_is_shown_with_a_way_back(panel, inputs):
