@@ -328,12 +328,15 @@ def _number(name, text, otherwise, whose, problems):
         problems.append(f"{whose}{_label(name)} is no number; {taken}.")
         return otherwise
     number = float(text)
+    if not math.isfinite(number):
+        taken = "it was ignored" if otherwise is None else f"{quantity_text(otherwise)} was taken"
+        problems.append(f"{whose}{_label(name)} is too large a number; {taken}.")
+        return otherwise
     clamped = min(max(number, low), high)
     if clamped != number:
-        size = quantity_text(number) if math.isfinite(number) else "too large a number"
         problems.append(
-            f"{whose}{_label(name)} is {size}, beyond {quantity_text(low)} to {quantity_text(high)}; "
-            f"{quantity_text(clamped)} was taken."
+            f"{whose}{_label(name)} is {quantity_text(number)}, beyond {quantity_text(low)} to "
+            f"{quantity_text(high)}; {quantity_text(clamped)} was taken."
         )
     return clamped
 

@@ -11,7 +11,7 @@ from dashboard.compute.document import NextTick
 from dashboard.figures.track_response import DecayRateFigure, PointResponseFigure
 from dashboard.persistence.exports import decay_rate_csv, file_name, point_response_csv
 from dashboard.session.heading import Heading
-from dashboard.views.components import PAPER, bokeh_pane, caption
+from dashboard.views.components import bokeh_pane, caption, panel
 
 
 class TrackResponseView(Viewer):
@@ -78,34 +78,18 @@ class TrackResponseView(Viewer):
 
     def __panel__(self):
         """Return what is put on the page."""
-        points = pmui.Paper(
-            pmui.Row(
-                caption("Track response", POINT_WORDS),
-                pn.HSpacer(),
-                self.quantity,
-                self.save_points,
-                sizing_mode="stretch_width",
-            ),
-            bokeh_pane(self.points.layout),
-            **PAPER,
+        parts = (
+            ("Track response", POINT_WORDS, (self.quantity, self.save_points), self.points),
+            ("Track decay rate", DECAY_WORDS, (self.save_decay,), self.decay),
         )
-        decay = pmui.Paper(
-            pmui.Row(
-                caption("Track decay rate", DECAY_WORDS),
-                pn.HSpacer(),
-                self.save_decay,
-                sizing_mode="stretch_width",
-            ),
-            bokeh_pane(self.decay.layout),
-            **PAPER,
+        panels = (
+            panel(
+                pn.Row(caption(title, words), pn.HSpacer(), *controls, sizing_mode="stretch_width"),
+                bokeh_pane(figure.layout),
+            )
+            for title, words, controls, figure in parts
         )
-        return pmui.Grid(
-            *(pmui.Grid(each, size={"xs": 12, "lg": 6}) for each in (points, decay)),
-            container=True,
-            spacing=1,
-            sizing_mode="stretch_width",
-            margin=(0, 8, 8, 8),
-        )
+        return pn.Column(*panels, stylesheets=[theme.FITTING_CSS], sizing_mode="stretch_width", margin=0)
 
 
 POINT_WORDS = "the wheel away, 24 elements a bay; thick over a support, thin half-way between two"

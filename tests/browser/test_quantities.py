@@ -249,7 +249,7 @@ def test_all_can_be_reached_and_is_named(blank):
     blank.get_by_text("Advanced", exact=True).click()
     expect(slider(blank, "Contact stiffness, kN/mm")).to_be_visible()
     blank.get_by_role("button", name="About Boot stiffness").click()
-    expect(blank.get_by_text("the softer, the lower isolation begins")).to_be_visible()
+    expect(blank.get_by_text("the softer, the lower it isolates")).to_be_visible()
 
 
 def test_a_drag_sends_no_more_than_is_answered(dashboard):
