@@ -189,7 +189,7 @@ class Measured(Viewer):
             caption(TITLE, TITLE_WORDS),
             pn.Row(self.part, self.unit, margin=0),
             self.pasted,
-            pmui.FlexBox(self.read, self.load, self.use, self.discard, self.remove, margin=(0, 0, 0, 4)),
+            pn.FlexBox(self.read, self.load, self.use, self.discard, self.remove, margin=(0, 0, 0, 4)),
             self.message,
             self.words,
             pn.Column(*self.panes, stylesheets=[theme.FITTING_CSS], sizing_mode="stretch_width", margin=0),

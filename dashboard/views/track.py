@@ -88,7 +88,8 @@ class Track(Tab):
         """Put the drawing into its place, then the response, what was measured, and the catalogue."""
         place.objects = [self._drawn()]
         yield
-        for part in (self.response, self.measured, self.catalogue):
+        parts = (self.response, self.measured, self.catalogue)
+        for part in parts if self.response is not None else parts[1:]:
             made = part.__panel__()
             made.margin = (0, 8, 8, 8)
             place.append(made)
@@ -108,7 +109,6 @@ class Track(Tab):
         return pmui.Grid(
             pmui.Grid(drawing, size={"xs": 12, "lg": 8}),
             pmui.Grid(frequencies, size={"xs": 12, "lg": 4}),
-            pmui.Grid(self.response, size=12),
             container=True,
             spacing=1,
             sizing_mode="stretch_width",
