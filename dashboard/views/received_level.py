@@ -66,10 +66,12 @@ class ReceivedLevel(Tab):
 
     def refresh(self):
         """Show what has changed while nobody looked."""
+        # before the tab is drawn: a select that is there but not drawn yet cannot take new options
+        if self.in_sight:
+            self._offer()
         self._show_later()
 
     def _show(self):
-        # a select that was never drawn cannot take new options
         if not self.in_sight:
             return
         self._offer()
