@@ -74,11 +74,8 @@ class InquiryRunner:
         inquiry, question = self._inquiry, self._inquiry.asked
         if question is None or question == inquiry.answered:
             return
-        if question.kind in QUICK:
-            with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(self._latest.news.wait(), REST)
-            if self._latest.pending:
-                return
+        if question.kind in QUICK and await self._latest.news_within(REST):
+            return
         self._work = work = _Work(question)
         publish(inquiry, document, busy=True, progress=None, so_far=None, problem="")
         pool = workers() if question.kind in QUICK else questioners()

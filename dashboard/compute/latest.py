@@ -1,6 +1,7 @@
 """Work that only the newest request matters to, and what it publishes."""
 
 import asyncio
+import contextlib
 import logging
 from functools import partial
 
@@ -37,6 +38,12 @@ class Latest:
     def pending(self):
         """Whether it was asked for since it last began."""
         return self.news.is_set()
+
+    async def news_within(self, seconds):
+        """Wait some time at most, and return whether it was asked for since it last began."""
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(self.news.wait(), seconds)
+        return self.pending
 
     async def ask(self, *_):
         """Ask for the work, and see it through unless it is under way already."""

@@ -172,7 +172,7 @@ class Runner(param.Parameterized):
                 await self._draw_exact(design, document)
         finally:
             _abandon(live)
-        if await self._news_within(max(REST, RESTS * taken)):
+        if await self._latest.news_within(max(REST, RESTS * taken)):
             raise _SupersededError
 
     async def _draw_exact(self, design, document):
@@ -203,12 +203,6 @@ class Runner(param.Parameterized):
                     raise _SupersededError
         self._live_is_slow = time.monotonic() - began > SOON
         return taken
-
-    async def _news_within(self, seconds):
-        """Wait some time at most, and return whether newer inputs arrived."""
-        with contextlib.suppress(TimeoutError):
-            await asyncio.wait_for(self._latest.news.wait(), seconds)
-        return self._latest.pending
 
     def _success(self, design, summary, from_cache):
         return {

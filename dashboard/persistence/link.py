@@ -323,14 +323,12 @@ def _number(name, text, otherwise, whose, problems):
         low, high = EXTRA_FIELDS[name].low, EXTRA_FIELDS[name].high
     else:
         low, high = (end / FIELDS[name].factor for end in RANGES[name][:2])
-    if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
-        taken = "it was ignored" if otherwise is None else f"{quantity_text(otherwise)} was taken"
-        problems.append(f"{whose}{_label(name)} is no number; {taken}.")
-        return otherwise
-    number = float(text)
+    is_number = len(text) <= LONGEST_NUMBER and NUMBER.fullmatch(text)
+    number = float(text) if is_number else math.nan
     if not math.isfinite(number):
         taken = "it was ignored" if otherwise is None else f"{quantity_text(otherwise)} was taken"
-        problems.append(f"{whose}{_label(name)} is too large a number; {taken}.")
+        fault = "too large a number" if is_number else "no number"
+        problems.append(f"{whose}{_label(name)} is {fault}; {taken}.")
         return otherwise
     clamped = min(max(number, low), high)
     if clamped != number:
