@@ -43,6 +43,10 @@ waiting for a worker does not count: a busy server is not slow inputs."""
 
 STOPPED = "Stopped. The pictures show the last track that was solved."
 STOPPED_EXACT = "Stopped. The curve is the exact one of this track; its force was not solved."
+STOPPED_LIVE = "Stopped. The pictures are a live run's of this track; the paper's run was not solved."
+STOPPED_WORDS = {AT_ONCE: STOPPED_EXACT, MOVING: STOPPED_LIVE}
+"""What to say of a stop, by the fidelity at which the design is drawn already."""
+
 EXACT_ALL_THE_SAME = "The curve is the exact one of this track all the same."
 
 
@@ -136,18 +140,18 @@ class Runner(param.Parameterized):
         except _SupersededError:
             self._publish(document, progress=None)
         except _StoppedError:
-            words = STOPPED_EXACT if self._has_exact(design) else STOPPED
+            words = STOPPED_WORDS.get(self._shown_fidelity(design), STOPPED)
             self._publish(document, busy=False, progress=None, problem=words, asked=design)
         except Exception as error:
             words = readable(error)
-            if self._has_exact(design):
+            if self._shown_fidelity(design) == AT_ONCE:
                 words = f"{words} {EXACT_ALL_THE_SAME}"
             self._publish(document, busy=self._latest.pending, progress=None, problem=words, asked=design)
 
-    def _has_exact(self, design):
-        """Return whether the exact curve of a design is drawn."""
+    def _shown_fidelity(self, design):
+        """Return at which fidelity a design is drawn, or None where another is."""
         shown = self.outcome.summary
-        return shown is not None and shown.design == design and shown.solution.fidelity == "exact"
+        return shown.solution.fidelity if shown is not None and shown.design == design else None
 
     async def _wait_for_compiler(self, document):
         if compiled().done():

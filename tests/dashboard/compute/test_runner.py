@@ -11,7 +11,7 @@ import pytest
 import trackig_core as tig
 from dashboard.compute import runner as runner_module
 from dashboard.compute.latest import readable
-from dashboard.compute.runner import EXACT_ALL_THE_SAME, STOPPED, Runner
+from dashboard.compute.runner import EXACT_ALL_THE_SAME, STOPPED_EXACT, STOPPED_LIVE, Runner
 from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, solve_summary
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
@@ -416,11 +416,31 @@ def test_a_long_solve_can_be_stopped(make_store, gate):
         await until(lambda: gate.gave_up)
 
     asyncio.run(stop())
-    assert session.outcome.problem == STOPPED
+    assert session.outcome.problem == STOPPED_LIVE
+    assert session.outcome.summary.design.pad_stiffness == 500e6
+    assert session.outcome.summary.solution.fidelity == MOVING
     assert not session.outcome.busy
     session.change(pad_stiffness=301)
     assert session.outcome.problem == ""
     assert session.outcome.summary.design.pad_stiffness == 301e6
+
+
+def test_a_stop_before_the_live_run_says_that_the_exact_curve_stands(make_store, live_gate, monkeypatch):
+    monkeypatch.setattr(runner_module, "PATIENCE", WAIT)
+    session = Session(make_store(live_gate.solve))
+    session.do(session.runner.start)
+    session.runner._live_is_slow = True
+
+    async def stop():
+        session.inputs.pad_stiffness = 500
+        await until(lambda: session.outcome.summary.design.pad_stiffness == 500e6)
+        session.runner.stop()
+        await until(lambda: session.outcome.problem)
+
+    asyncio.run(stop())
+    assert session.outcome.problem == STOPPED_EXACT
+    assert session.outcome.summary.design.pad_stiffness == 500e6
+    assert session.outcome.summary.solution.fidelity == AT_ONCE
 
 
 def test_a_failure_is_told_and_leaves_the_last_good_picture(make_store, fake_picture):
