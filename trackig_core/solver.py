@@ -340,4 +340,5 @@ def compile_kernels() -> None:
         simulate(each, make_grid(each, bays=FEWEST_BAYS, record=0.25))
     banded_spectrum(design)
     floquet_waves.receptance(design, [50.0])
+    solve(design, "exact")
     solve_many(design)

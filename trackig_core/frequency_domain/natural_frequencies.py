@@ -13,12 +13,12 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from trackig_core.arrays import RealArray
 from trackig_core.frequency_domain import batch_kernels
 from trackig_core.frequency_domain.track_model import Track, TrackModel, once_per_model
+from trackig_core.levels.kernels import highest_peak
 from trackig_core.results import NaturalFrequencies
 from trackig_core.track.viscoelastic_law import Relaxation
 
@@ -170,9 +170,9 @@ def peak_near(frequency: RealArray, magnitude: RealArray, near: float) -> float 
     float or None
         Frequency of the highest peak [Hz], refined between points; None if there is none inside.
     """
-    inside = (frequency > near / PEAK_REACH) & (frequency < near * PEAK_REACH)
-    if np.count_nonzero(inside) < 5:
+    first = np.searchsorted(frequency, near / PEAK_REACH, side="right")
+    inside = slice(first, np.searchsorted(frequency, near * PEAK_REACH))
+    if frequency[inside].size < 5:
         return None
-    curve = CubicSpline(np.log(frequency[inside]), np.log(magnitude[inside]))
-    peaks = [root for root in curve.derivative().roots(extrapolate=False) if curve(root, 2) < 0]
-    return float(np.exp(max(peaks, key=curve))) if peaks else None
+    peak = highest_peak(np.log(frequency[inside]), np.log(magnitude[inside]))
+    return None if math.isnan(peak) else math.exp(peak)

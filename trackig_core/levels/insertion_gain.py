@@ -8,10 +8,10 @@ from collections.abc import Collection
 
 import numpy as np
 from scipy.integrate import simpson
-from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_EDGES, LINE_FRACTION, ONE_THIRD_OCTAVES, Bands, decibels
+from trackig_core.levels import kernels
 from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import TrackDesign
 from trackig_core.track.vehicle import rigid_energy
@@ -22,6 +22,9 @@ under the same vehicle."""
 
 SUMMATIONS = ("energy", "coherent")
 """Sums over the supports: of squared forces (the paper), or of forces."""
+
+FEWEST_KNOTS = 4
+"""Frequencies that a spectrum needs for a spline through it [-]."""
 
 PANELS = 64
 """Panels of Simpson's rule per band over the energy of a rigid track under a suspension [-]."""
@@ -67,14 +70,14 @@ def insertion_gain(
     Raises
     ------
     ValueError
-        If ``reference`` or ``summation`` is not one of the above, or the reference has no meaning for the
-        design.
+        If ``reference`` or ``summation`` is not one of the above, the reference has no meaning for the
+        design, or the spectrum has fewer than four frequencies or an energy that is not finite.
     """
     check_choice("summation", summation, SUMMATIONS)
     check_reference(design, reference)
     energy = summed_energy(spectrum, summation)
     frequency = spectrum.frequency
-    density = CubicSpline(frequency, energy)
+    slopes = _slopes(frequency, energy)
     if reference == "stiff":
         if stiff is None:
             raise ValueError("reference = 'stiff': give stiff, or use solve(), which computes it")
@@ -83,11 +86,11 @@ def insertion_gain(
     elif reference == "line":
         # E grows as that of a rigid track here, which a cubic spline follows between bins
         anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        height = float(density(anchor)) / _rise(design, anchor)
+        height = kernels.spline_value(frequency, energy, slopes, anchor) / _rise(design, anchor)
         reference_energy = _rise_in_bands(design, float(height), bands)
     else:
         reference_energy = rigid_band_energy(design, spectrum.step, bands)
-    band_energy = _over_bands(density, bands.edges)
+    band_energy = kernels.spline_integrals(frequency, energy, slopes, bands.edges)
     return InsertionGain(
         levels=decibels(band_energy / reference_energy),
         band_energy=band_energy,
@@ -184,16 +187,20 @@ def integrate_bands(frequency: RealArray, density: RealArray, edges: RealArray =
     -------
     numpy.ndarray (bands,)
         Integral over each band [unit].
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than four frequencies, they do not ascend, or a density is not finite.
     """
-    return _over_bands(CubicSpline(frequency, density), edges)
+    slopes = _slopes(frequency, density)
+    return np.asarray(kernels.spline_integrals(frequency, density, slopes, edges))
 
 
-def _over_bands(spline: CubicSpline, edges: RealArray) -> RealArray:
-    inner = (spline.x > edges[0]) & (spline.x < edges[-1])
-    nodes = np.sort(np.concatenate([spline.x[inner], edges]))
-    at_nodes, between = spline(nodes), spline((nodes[:-1] + nodes[1:]) / 2)
-    # Simpson's rule is exact for cubics. Panels are summed band by band: the difference of one running sum
-    # would lose bands that lie 160 dB below others.
-    panels = np.diff(nodes) * (at_nodes[:-1] + 4 * between + at_nodes[1:]) / 6
-    energy: RealArray = np.add.reduceat(panels, np.searchsorted(nodes, edges[:-1]))
-    return energy
+def _slopes(frequency: RealArray, density: RealArray) -> RealArray:
+    """Return the slopes of the spline through a spectrum, or raise a ValueError that says what it is not."""
+    if frequency.size < FEWEST_KNOTS or not (np.diff(frequency) > 0).all():
+        raise ValueError(f"frequency: give at least {FEWEST_KNOTS} frequencies, in ascending order")
+    if density.shape != frequency.shape or not np.isfinite(density).all():
+        raise ValueError("energy: give a finite number per frequency")
+    return np.asarray(kernels.spline_slopes(frequency, density))
