@@ -69,9 +69,8 @@ def cubic(x: RealArray, y: RealArray, slopes: RealArray, i: int) -> tuple[float,
     """
     h = x[i + 1] - x[i]
     rise = (y[i + 1] - y[i]) / h
-    return (3.0 * rise - 2.0 * slopes[i] - slopes[i + 1]) / h, (slopes[i] + slopes[i + 1] - 2.0 * rise) / (
-        h * h
-    )
+    square = (3.0 * rise - 2.0 * slopes[i] - slopes[i + 1]) / h
+    return square, (slopes[i] + slopes[i + 1] - 2.0 * rise) / (h * h)
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -90,7 +89,7 @@ def spline_value(x: RealArray, y: RealArray, slopes: RealArray, at: float) -> fl
     float
         The value.
     """
-    i = min(max(np.searchsorted(x, at, side="right") - 1, 0), x.size - 2)
+    i: int = min(max(int(np.searchsorted(x, at, side="right")) - 1, 0), x.size - 2)
     square, cube = cubic(x, y, slopes, i)
     t = at - x[i]
     value: float = y[i] + t * (slopes[i] + t * (square + t * cube))
@@ -118,7 +117,7 @@ def spline_integrals(x: RealArray, y: RealArray, slopes: RealArray, edges: RealA
     """
     integrals = np.zeros(edges.size - 1)
     last = x.size - 2
-    i = min(max(np.searchsorted(x, edges[0], side="right") - 1, 0), last)
+    i: int = min(max(int(np.searchsorted(x, edges[0], side="right")) - 1, 0), last)
     for band in range(integrals.size):
         low = edges[band]
         while low < edges[band + 1]:
