@@ -63,6 +63,11 @@ class _KernelCache(caching.FunctionCache):
 
     _impl_class = _KernelCacheImpl
 
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function)
+        # kernels are compiled into each other, and Numba looks at a function's own file only
+        self._cache_file._source_stamp = (self._cache_file._source_stamp, _kernels_stamp())
+
     def load_overload(self, signature: Any, context: Any) -> Any:
         """Return compiled code, or None if there is none that can be read."""
         try:
@@ -84,6 +89,14 @@ class _KernelCache(caching.FunctionCache):
         except Exception as error:  # a full disk, a folder that went away, a damaged index
             _say(f"compiled code cannot be kept in {self.cache_path} ({error})")
             self.disable()
+
+
+@cache
+def _kernels_stamp() -> tuple[tuple[str, int, int], ...]:
+    """Return name, time of change and size of every file of compiled code."""
+    folder = Path(__file__).parent
+    files = sorted([*folder.glob("*/*kernels.py"), *folder.glob("*/vectors.py")])
+    return tuple((file.name, file.stat().st_mtime_ns, file.stat().st_size) for file in files)
 
 
 @cache

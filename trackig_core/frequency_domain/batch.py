@@ -21,7 +21,7 @@ from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS, LINE_FRACT
 from trackig_core.frequency_domain import batch_kernels as kernels
 from trackig_core.frequency_domain.kernel_rows import law_row
 from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
-from trackig_core.frequency_domain.refinement import banded_spectrum, gain_of, stiff_spectrum
+from trackig_core.frequency_domain.refinement import banded_spectrum, stiff_spectrum
 from trackig_core.frequency_domain.static_lattice import (
     bending_stiffness,
     point_compliance,
@@ -33,12 +33,14 @@ from trackig_core.levels.insertion_gain import (
     SUMMATIONS,
     check_choice,
     integrate_bands,
+    line_over_rigid,
     rigid_band_energy,
     summed_energy,
 )
 from trackig_core.results import SolveCancelled
 from trackig_core.track.damping_table import interpolated_terms
 from trackig_core.track.design import (
+    ELEMENTS_PER_BAY,
     ONE_AXLE,
     RANGES,
     REFERENCE_FREQUENCY,
@@ -514,8 +516,8 @@ def _solved_alone(columns: Columns, row: int) -> dict[str, Any]:
     energies = [summed_energy(spectrum, summation) for summation in SUMMATIONS]
     lines = np.full(len(SUMMATIONS), np.nan)
     if model.design.ground is None:
-        gains = [gain_of(model, spectrum, "line", summation) for summation in SUMMATIONS]
-        lines = np.array([gain.reference_energy[0] / rigid[0] for gain in gains])
+        loaded = frequencies.loaded_track
+        lines = np.array([line_over_rigid(spectrum, model.design, loaded, each) for each in SUMMATIONS])
     block = frequencies.coupled_block
     return {
         "loaded_track": frequencies.loaded_track,
@@ -574,7 +576,7 @@ def _tracks(columns: Columns) -> RealArray:
     if lossless.any():
         allowed = "more than 0: without loss the exact spectrum has no bound"
         raise _loss_error(columns, int(np.argmax(lossless)), allowed)
-    dx = columns["fastener_spacing"].astype(float) / kernels.ELEMENTS_PER_BAY
+    dx = columns["fastener_spacing"].astype(float) / ELEMENTS_PER_BAY
     rails = columns["rail"]
     masses = columns["block_mass"]
     tracks[:, kernels.BLOCK_MASS] = np.where(two_stage, masses, 0.0).astype(float)

@@ -20,14 +20,13 @@ import numpy as np
 
 from trackig_core.arrays import BoolArray, IntArray, RealArray
 from trackig_core.compiling import njit
+from trackig_core.frequency_domain.axle_kernels import axle_energy
+from trackig_core.frequency_domain.wave_kernels import ELEMENTS_PER_BAY, bay_waves
 
 PAD, BOOT, BLOCK_MASS, BENDING, ELEMENT_MASS, WHEEL_MASS, CONTACT = 0, 7, 14, 15, 16, 17, 18
 COLUMNS = 19
 """Columns of a track: pad law, boot law, block mass [kg] (0: single-stage), EI/dx^3 [N/m], m' dx [kg], wheel
 mass [kg], contact stiffness [N/m]."""
-
-ELEMENTS_PER_BAY = 3
-"""Rail elements per bay [-]; the closed form below is written out for three."""
 
 LOADED_TRACK, COUPLED_BLOCK, WHEEL_ON_RIGID_BLOCKS, BLOCK_ON_BOOT, CUT_ON = 0, 1, 2, 3, 4
 FREQUENCIES = 6
@@ -60,102 +59,6 @@ STILL = 1e-7
 
 PAD_ON_RAIL, PAIR_LOWER, PAIR_UPPER, BOOT_ON_BLOCK, BETWEEN_SPRINGS, SURPLUS, BALANCE = 0, 1, 2, 3, 4, 5, 6
 """Equations whose roots are natural frequencies."""
-
-
-@njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def square_root(re: float, im: float) -> tuple[float, float]:
-    """Return the square root of a complex number that lies in the right half plane, as two floats."""
-    larger = math.sqrt(0.5 * (math.sqrt(re * re + im * im) + abs(re)))
-    smaller = 0.5 * abs(im) / (larger + 1e-300)
-    return (
-        larger if re >= 0.0 else smaller,
-        math.copysign(smaller if re >= 0.0 else larger, im),
-    )
-
-
-@njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def bay_waves(q: float, re: float, im: float) -> tuple[float, ...]:
-    """Solve the supported rail exactly: two waves that decay from bay to bay.
-
-    The derivation is that of :func:`trackig_core.frequency_domain.kernels.bay_waves`. With three elements a
-    bay its Chebyshev polynomials of 1 +- r/2 multiply out to polynomials of q = r^2: with s the support's
-    stiffness over EI/dx^3, the receptance over y - 2 = w is
-
-        ((3 - q)(9 - q) + 4 w) / (w^2 - (12 q - 4 s) w + (9 - q)(s (3 - q) - q (9 - q)))
-
-    Parameters
-    ----------
-    q : float
-        m' dx w^2 / (EI/dx^3) [-].
-    re, im : float
-        Dynamic stiffness of a support over EI/dx^3 [-].
-
-    Returns
-    -------
-    tuple of float (10,)
-        Real and imaginary parts: factor of the first and the second wave from bay to bay [-], of magnitude up
-        to one; share of the first and the second wave in the point receptance, times EI/dx^3 [-]. Then how
-        much of its energy either wave loses from bay to bay [-].
-    """
-    still = (3.0 - q) * (9.0 - q)
-    half_re, half_im = 6.0 * q - 2.0 * re, -2.0 * im
-    product_re, product_im = (9.0 - q) * (re * (3.0 - q) - q * (9.0 - q)), still * im
-    root_re, root_im = square_root(
-        half_re * half_re - half_im * half_im - product_re, 2.0 * half_re * half_im - product_im
-    )
-    # the larger root by addition, the smaller from their product: neither cancels
-    sign = -1.0 if root_re * half_re + root_im * half_im < 0.0 else 1.0
-    root_re, root_im = sign * root_re, sign * root_im
-    one_re, one_im = half_re + root_re, half_im + root_im
-    scale = 1.0 / (one_re * one_re + one_im * one_im)
-    two_re = (product_re * one_re + product_im * one_im) * scale
-    two_im = (product_im * one_re - product_re * one_im) * scale
-    # share of either wave: (still + 4 w) / (-+ 2 root)
-    scale = 0.5 / (root_re * root_re + root_im * root_im)
-    root_re, root_im = root_re * scale, -root_im * scale
-    m1_re, m1_im, a1_re, a1_im, lost1 = wave(
-        one_re, one_im, -still - 4.0 * one_re, -4.0 * one_im, root_re, root_im
-    )
-    m2_re, m2_im, a2_re, a2_im, lost2 = wave(
-        two_re, two_im, still + 4.0 * two_re, 4.0 * two_im, root_re, root_im
-    )
-    return m1_re, m1_im, m2_re, m2_im, a1_re, a1_im, a2_re, a2_im, lost1, lost2
-
-
-@njit(nogil=True, cache=True, inline="always", error_model="numpy")
-def wave(
-    re: float, im: float, share_re: float, share_im: float, root_re: float, root_im: float
-) -> tuple[float, float, float, float, float]:
-    """Return factor from bay to bay, share in the receptance and loss of energy of the wave of w = y - 2.
-
-    With 1/factor = exp(a + i b) the imaginary part of 1 + w/2 = cosh(a + i b) is sinh(a) sin(b), and the real
-    part of sinh(a + i b) is sinh(a) cos(b). So where a wave runs, the loss of energy, 1 - exp(-2 a) =
-    2 sinh(a) |factor|, needs no difference of numbers near one.
-    """
-    half_re, half_im = square_root(
-        re * (1.0 + 0.25 * re) - 0.25 * im * im, im * (1.0 + 0.25 * re) + 0.25 * re * im
-    )
-    mean_re, mean_im = 1.0 + 0.5 * re, 0.5 * im
-    sign = -1.0 if half_re * mean_re + half_im * mean_im < 0.0 else 1.0
-    half_re, half_im = sign * half_re, sign * half_im
-    factor_re, factor_im = mean_re + half_re, mean_im + half_im
-    scale = 1.0 / (factor_re * factor_re + factor_im * factor_im)
-    # share * root / (2 half)
-    amplitude_re = share_re * root_re - share_im * root_im
-    amplitude_im = share_re * root_im + share_im * root_re
-    size = half_re * half_re + half_im * half_im
-    inverse = 0.5 / size
-    sine = 0.5 * (1.0 + size - mean_re * mean_re - mean_im * mean_im)  # sin(b)^2
-    across = sine > 0.5
-    sinh = abs(mean_im if across else half_re) / math.sqrt(max(sine if across else 1.0 - sine, 0.5))
-    lost = 2.0 * sinh * math.sqrt(scale) if scale > 0.5 else 1.0 - scale
-    return (
-        factor_re * scale,
-        -factor_im * scale,
-        (amplitude_re * half_re + amplitude_im * half_im) * inverse,
-        (amplitude_im * half_re - amplitude_re * half_im) * inverse,
-        lost,
-    )
 
 
 @njit(nogil=True, cache=True, inline="always", error_model="numpy")
@@ -646,6 +549,8 @@ def first_axis(
 @njit(nogil=True, cache=True, error_model="numpy")
 def refine(
     track: RealArray,
+    surroundings: RealArray,
+    wheels: IntArray,
     recursions: RealArray,
     time_step: float,
     bays: int,
@@ -661,6 +566,9 @@ def refine(
     ----------
     track : numpy.ndarray (19,)
         The track.
+    surroundings, wheels
+        As in :func:`trackig_core.frequency_domain.axle_kernels.axle_energy`, roughness independent; no wheels
+        for one unsprung wheel over a support, on rigid ground.
     recursions, time_step, bays
         As in :func:`lattice_energy`; time step 0 for the infinite track in continuous time, which needs no
         recursions.
@@ -682,6 +590,7 @@ def refine(
         How many frequencies there are now.
     """
     bent = math.exp(2.0 * STRAIGHTNESS / 10.0 * math.log(10.0))
+    together = np.empty(0)
     straight[: count - 1] = False
     spare[0, :count] = axis[0, :count]
     halved = count
@@ -690,7 +599,9 @@ def refine(
             if not straight[i]:
                 spare[0, halved] = 0.5 * (axis[0, i] + axis[0, i + 1])
                 halved += 1
-        if time_step > 0.0:
+        if wheels.size > 0:
+            axle_energy(track, surroundings, wheels, together, spare[0, :halved], spare[1], spare[2])
+        elif time_step > 0.0:
             lattice_energy(track, recursions, time_step, bays, spare[0], halved, spare[1], spare[2])
         else:
             force_energy(track, spare[0], halved, spare[1], spare[2])  # the only call: it is compiled in here
@@ -835,14 +746,16 @@ def solve_rows(
     axis, spare = np.empty((3, CAPACITY)), np.empty((3, CAPACITY))
     straight, spare_straight = np.empty(CAPACITY, np.bool_), np.empty(CAPACITY, np.bool_)
     frequencies, at = np.empty(FREQUENCIES), np.empty((3, 1))
-    not_stepped = np.zeros((2, 7))
+    not_stepped, nothing, unsprung = np.zeros((2, 7)), np.empty(0), np.empty(0, np.int64)
     for row in range(tracks.shape[0]):
         track = tracks[row]
         natural_frequencies(track, frequencies, False)
         found[row, 0], found[row, 1] = frequencies[LOADED_TRACK], frequencies[COUPLED_BLOCK]
         loaded = frequencies[LOADED_TRACK]
         count, first = first_axis(loaded, edges, per_band, line_fraction, axis[0])
-        count = refine(track, not_stepped, 0.0, 0, count, axis, straight, spare, spare_straight)
+        count = refine(
+            track, nothing, unsprung, not_stepped, 0.0, 0, count, axis, straight, spare, spare_straight
+        )
         while axis[0, first] < edges[0]:
             first += 1
         sound[row] = 1 if count <= MOST_FREQUENCIES else 0
@@ -860,7 +773,13 @@ def solve_rows(
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def resolve_row(
-    track: RealArray, recursions: RealArray, time_step: float, bays: int, frequency: RealArray
+    track: RealArray,
+    surroundings: RealArray,
+    wheels: IntArray,
+    recursions: RealArray,
+    time_step: float,
+    bays: int,
+    frequency: RealArray,
 ) -> RealArray:
     """Refine the spectrum of one design.
 
@@ -868,7 +787,7 @@ def resolve_row(
     ----------
     track : numpy.ndarray (19,)
         The track.
-    recursions, time_step, bays
+    surroundings, wheels, recursions, time_step, bays
         As in :func:`refine`.
     frequency : numpy.ndarray (frequencies,)
         Frequencies to begin with [Hz], ascending and greater than zero; all are kept.
@@ -883,6 +802,8 @@ def resolve_row(
     axis[0, : frequency.size] = frequency
     count = refine(
         track,
+        surroundings,
+        wheels,
         recursions,
         time_step,
         bays,

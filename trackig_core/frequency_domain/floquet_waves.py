@@ -18,7 +18,9 @@ from numpy.typing import ArrayLike
 
 from trackig_core.arrays import AnyArray, ComplexArray, RealArray
 from trackig_core.frequency_domain import kernels
-from trackig_core.frequency_domain.axles import contact_forces, loaded_rail
+from trackig_core.frequency_domain.axle_kernels import axle_energy
+from trackig_core.frequency_domain.axles import contact_forces, loaded_rail, wheel_delays
+from trackig_core.frequency_domain.kernel_rows import surroundings_row, wheel_row
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.timoshenko import FreeBeam
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
@@ -150,10 +152,7 @@ def waves(design: Track, frequency: ArrayLike, lattice: Lattice = INFINITE) -> W
     ValueError
         If a frequency is not finite and greater than zero.
     """
-    frequency = np.atleast_1d(np.asarray(frequency, dtype=float))
-    if not (np.isfinite(frequency) & (frequency > 0)).all():
-        raise ValueError("frequencies must be finite and greater than 0 Hz")
-    model = track_model(design)
+    frequency, model = _checked(frequency), track_model(design)
     squared, supports = lattice.frequency_squared(frequency), model.supports(frequency, lattice)
     rail, spacing = model.design.rail, model.design.fastener_spacing
     dx = spacing / lattice.elements_per_bay
@@ -173,6 +172,14 @@ def waves(design: Track, frequency: ArrayLike, lattice: Lattice = INFINITE) -> W
             amplitudes,
         )
     return Waves(frequency, squared, multipliers, amplitudes, supports.transfer, lattice.bays, lattice.rail)
+
+
+def _checked(frequency: ArrayLike) -> RealArray:
+    """Return frequencies as an array [Hz], or raise a ValueError."""
+    checked = np.atleast_1d(np.asarray(frequency, dtype=float))
+    if not (np.isfinite(checked) & (checked > 0)).all():
+        raise ValueError("frequencies must be finite and greater than 0 Hz")
+    return checked
 
 
 def receptance(
@@ -302,7 +309,25 @@ def exact_spectrum(
     ForceSpectrum
         Energy summed over all supports, at the given frequencies.
     """
-    model = track_model(design)
+    model, frequency = track_model(design), _checked(frequency)
+    if lattice == INFINITE and model.causal:
+        return _compiled_spectrum(model, frequency, step)
+    return _lattice_spectrum(model, frequency, step, lattice)
+
+
+def _compiled_spectrum(model: TrackModel, frequency: RealArray, step: float) -> ForceSpectrum:
+    """Return the spectrum on the infinite track in continuous time, solved by compiled code."""
+    design, delays = model.design, wheel_delays(model.design)
+    energy, coherent = np.empty_like(frequency), np.empty_like(frequency)
+    delays = np.empty(0) if delays is None else delays
+    axle_energy(model.row, surroundings_row(design), wheel_row(design), delays, frequency, energy, coherent)
+    return ForceSpectrum(frequency, energy * step**2, coherent * step**2, step)
+
+
+def _lattice_spectrum(
+    model: TrackModel, frequency: RealArray, step: float, lattice: Lattice
+) -> ForceSpectrum:
+    """Return the spectrum on any lattice."""
     rail = waves(model, frequency, lattice)
     # the step's own spectrum is 1/(i w), in discrete time dt/(1 - exp(-i w dt)): both of magnitude 1/w
     if model.design.axle_positions != ONE_AXLE:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from trackig_core.arrays import RealArray
-from trackig_core.frequency_domain import batch_kernels as kernels
-from trackig_core.track.design import TrackDesign
+from trackig_core.arrays import IntArray, RealArray
+from trackig_core.frequency_domain import axle_kernels
+from trackig_core.track.design import ELEMENTS_PER_BAY, TrackDesign, axle_elements
 from trackig_core.track.viscoelastic_law import Relaxation
 
 
@@ -66,7 +66,7 @@ def track_row(design: TrackDesign, pad: Relaxation, boot: Relaxation | None) -> 
     numpy.ndarray (19,)
         See :data:`trackig_core.frequency_domain.batch_kernels.COLUMNS`.
     """
-    dx = design.fastener_spacing / kernels.ELEMENTS_PER_BAY
+    dx = design.fastener_spacing / ELEMENTS_PER_BAY
     return np.array(
         [
             *law_row(pad),
@@ -78,3 +78,31 @@ def track_row(design: TrackDesign, pad: Relaxation, boot: Relaxation | None) -> 
             design.contact_stiffness,
         ]
     )
+
+
+def surroundings_row(design: TrackDesign) -> RealArray:
+    """Return suspension and ground of a design as the kernels take them.
+
+    Parameters
+    ----------
+    design : TrackDesign
+        The track.
+
+    Returns
+    -------
+    numpy.ndarray (9,)
+        See :data:`trackig_core.frequency_domain.axle_kernels.SURROUNDINGS`.
+    """
+    row = np.zeros(axle_kernels.SURROUNDINGS)
+    suspension, ground = design.suspension, design.ground
+    if suspension is not None:
+        primary = suspension.primary_stiffness, suspension.primary_damping, suspension.bogie_mass
+        row[: axle_kernels.FOOT] = *primary, *suspension.secondary
+    if ground is not None:
+        row[axle_kernels.FOOT :] = ground.stiffness, ground.damping, ground.mass
+    return row
+
+
+def wheel_row(design: TrackDesign) -> IntArray:
+    """Return the rail elements on which wheels stand (wheels,), 0 over support 0."""
+    return np.array(axle_elements(design.axle_positions, design.fastener_spacing))

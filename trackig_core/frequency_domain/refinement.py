@@ -21,13 +21,13 @@ from trackig_core.frequency_domain.batch_kernels import (
     WIDEST_STEP,
 )
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
-from trackig_core.frequency_domain.kernel_rows import recursion_row
+from trackig_core.frequency_domain.kernel_rows import recursion_row, surroundings_row, wheel_row
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.natural_frequencies import loaded_track
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.levels.insertion_gain import insertion_gain, own_reference
 from trackig_core.results import ForceSpectrum, InsertionGain
-from trackig_core.track.design import DEFAULT_STEP, ONE_AXLE, DesignError, TrackDesign
+from trackig_core.track.design import DEFAULT_STEP, ELEMENTS_PER_BAY, ONE_AXLE, DesignError, TrackDesign
 
 STIFF_PAD = 1e13
 """Pad of the very stiff reference track [N/m]."""
@@ -65,17 +65,26 @@ def resolved_spectrum(
         Energy at the given and the added frequencies.
     """
     model = track_model(design)
-    if model.is_simplified and model.causal and _is_compiled(lattice):
+    if model.causal and _is_compiled(model, lattice):
+        surroundings, wheels = np.empty(0), np.empty(0, dtype=np.int64)
+        if not model.is_simplified:
+            surroundings, wheels = surroundings_row(model.design), wheel_row(model.design)
         axis, energy, coherent_energy = batch_kernels.resolve_row(
-            model.row, *_stepping(model, lattice), frequency
+            model.row, surroundings, wheels, *_stepping(model, lattice), frequency
         )
         return ForceSpectrum(axis, energy * step**2, coherent_energy * step**2, step)
     return refined_spectrum(lambda between: exact_spectrum(model, between, step, lattice), frequency)
 
 
-def _is_compiled(lattice: Lattice) -> bool:
-    """Return whether compiled code refines a lattice: all whose rail only bends, but those for study."""
-    euler = lattice.rail == "euler" and lattice.elements_per_bay == batch_kernels.ELEMENTS_PER_BAY
+def _is_compiled(model: TrackModel, lattice: Lattice) -> bool:
+    """Return whether compiled code refines a track on a lattice.
+
+    On the infinite track it does, and the paper's simplified model on every lattice whose rail only bends,
+    but those for study. Wheels that follow each other meet the same roughness: fringes are not refined.
+    """
+    if not model.is_simplified:
+        return lattice == INFINITE and (model.design.speed is None or len(model.design.axle_positions) == 1)
+    euler = lattice.rail == "euler" and lattice.elements_per_bay == ELEMENTS_PER_BAY
     ring_in_continuous_time = lattice.bays is not None and lattice.time_step is None
     return euler and not ring_in_continuous_time
 
@@ -253,9 +262,10 @@ def _fringed(model: TrackModel, step: float, lattice: Lattice, bands: Bands) -> 
     delays = wheel_delays(model.design)
     longest = 0.0 if delays is None else delays.max()
     parts = np.ceil(np.diff(axis) * longest * POINTS_PER_FRINGE).astype(int).clip(1)
-    starts = zip(axis[:-1], axis[1:], parts, strict=True)
-    between = [np.linspace(low, high, count, endpoint=False) for low, high, count in starts]
-    return exact_spectrum(model, np.append(np.concatenate(between), axis[-1]), step, lattice)
+    # every interval in equal parts
+    place = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    between = np.repeat(axis[:-1], parts) + place * np.repeat(np.diff(axis) / parts, parts)
+    return exact_spectrum(model, np.append(between, axis[-1]), step, lattice)
 
 
 def very_stiff(design: TrackDesign) -> TrackDesign:

@@ -5,6 +5,7 @@ and the energy sum; IEC 61260-1 for the bands.
 """
 
 from collections.abc import Collection
+from functools import lru_cache
 
 import numpy as np
 from scipy.integrate import simpson
@@ -84,10 +85,8 @@ def insertion_gain(
         in_bands = integrate_bands(stiff.frequency, summed_energy(stiff, summation), bands.edges)
         reference_energy = in_bands * (spectrum.step / stiff.step) ** 2
     elif reference == "line":
-        # E grows as that of a rigid track here, which a cubic spline follows between bins
-        anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
-        height = kernels.spline_value(frequency, energy, slopes, anchor) / _rise(design, anchor)
-        reference_energy = _rise_in_bands(design, float(height), bands)
+        height = _line_height(design, frequency, energy, slopes, loaded_track)
+        reference_energy = _rise_in_bands(design, height, bands)
     else:
         reference_energy = rigid_band_energy(design, spectrum.step, bands)
     band_energy = kernels.spline_integrals(frequency, energy, slopes, bands.edges)
@@ -138,9 +137,43 @@ def rigid_band_energy(design: TrackDesign, step: float, bands: Bands = ONE_THIRD
     numpy.ndarray (bands,)
         Energy [N2 s].
     """
+    return _rise_in_bands(design, _rigid_height(design, step), bands)
+
+
+def line_over_rigid(
+    spectrum: ForceSpectrum, design: TrackDesign, loaded_track: float, summation: str
+) -> float:
+    """Return the height of the line in parts of that of the rigid track [-], which is the same in every band.
+
+    Parameters
+    ----------
+    spectrum, design, loaded_track, summation
+        As for :func:`insertion_gain`.
+
+    Returns
+    -------
+    float
+        Energy of the line over that of the rigid track.
+    """
+    energy = summed_energy(spectrum, summation)
+    slopes = _slopes(spectrum.frequency, energy)
+    line = _line_height(design, spectrum.frequency, energy, slopes, loaded_track)
+    return line / _rigid_height(design, spectrum.step)
+
+
+def _line_height(
+    design: TrackDesign, frequency: RealArray, energy: RealArray, slopes: RealArray, loaded_track: float
+) -> float:
+    """Return the energy of the line over :func:`_rise`."""
+    # E grows as that of a rigid track here, which a cubic spline follows between bins
+    anchor = np.clip(LINE_FRACTION * loaded_track, frequency[0], frequency[-1])
+    return float(kernels.spline_value(frequency, energy, slopes, anchor) / _rise(design, anchor))
+
+
+def _rigid_height(design: TrackDesign, step: float) -> float:
+    """Return the energy of a rigid track over :func:`_rise`."""
     # E = (m_w w^2 step)^2 / w^2 under a wheel without suspension
-    height = 2 * np.pi * design.wheel_mass * step if design.one_unsprung_wheel else step
-    return _rise_in_bands(design, height**2, bands)
+    return float(2 * np.pi * design.wheel_mass * step if design.one_unsprung_wheel else step) ** 2
 
 
 def _rise(design: TrackDesign, frequency: RealArray) -> RealArray:
@@ -153,8 +186,14 @@ def _rise_in_bands(design: TrackDesign, height: float, bands: Bands) -> RealArra
     if design.one_unsprung_wheel:
         cubes: RealArray = height * np.diff(bands.edges**3) / 3
         return cubes
-    nodes = np.linspace(bands.edges[:-1], bands.edges[1:], 2 * PANELS + 1)
+    nodes = _nodes(bands)
     return height * np.asarray(simpson(_rise(design, nodes), nodes, axis=0))
+
+
+@lru_cache(maxsize=8)
+def _nodes(bands: Bands) -> RealArray:
+    """Return where Simpson's rule looks at each band (nodes, bands) [Hz]."""
+    return np.linspace(bands.edges[:-1], bands.edges[1:], 2 * PANELS + 1)
 
 
 def summed_energy(spectrum: ForceSpectrum, summation: str) -> RealArray:
