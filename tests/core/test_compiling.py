@@ -1,5 +1,6 @@
 """Compiled code and where it is kept: beside the source, in a private folder, or nowhere; damaged files."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -105,3 +106,38 @@ def test_a_damaged_file_is_compiled_anew(installed, cached, tmp_path, kind, dama
     assert "cannot be read and is made anew" in said
     assert said.count("\n") == 1
     assert run(installed, NUMBA_CACHE_DIR=str(folder)) == ""
+
+
+EXACTLY = """
+import json, sys
+import trackig_core as tig
+design = tig.PRESETS[sys.argv[1]]
+solution = tig.solve(design, "exact")
+many = tig.solve_many(design)
+receptance = tig.receptance(design, [20.0, 50.0, 300.0])
+print(json.dumps([
+    solution.insertion_gain.tolist(),
+    [solution.natural_frequencies.loaded_track, solution.natural_frequencies.observed_loaded_track],
+    many.insertion_gain[0].tolist(),
+    abs(receptance).tolist(),
+]))
+"""
+
+
+@pytest.mark.parametrize("preset", ["slab-track", "booted-block-low-mass"])
+def test_compiled_and_interpreted_kernels_give_the_same_exact_answers(preset):
+    """Splines, batch and closed form, also as Python runs them: a debugger steps through what is compiled."""
+    answers = []
+    for disabled in ("0", "1"):
+        done = subprocess.run(
+            [sys.executable, "-c", EXACTLY, preset],
+            env=os.environ | {"NUMBA_DISABLE_JIT": disabled},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=300,
+        )
+        assert done.returncode == 0, done.stderr
+        answers.append(json.loads(done.stdout))
+    for compiled, interpreted in zip(*answers, strict=True):
+        assert interpreted == pytest.approx(compiled, rel=1e-9, abs=0.0)
