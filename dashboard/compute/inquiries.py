@@ -97,9 +97,7 @@ class InquiryRunner:
     async def _follow(self, future, work, document):
         """Wait until a question is answered, and tell how far it is; a newer one ends it."""
         while not future.done():
-            news = asyncio.ensure_future(self._latest.news.wait())
-            await asyncio.wait({future, news}, timeout=LOOK_EVERY, return_when=asyncio.FIRST_COMPLETED)
-            news.cancel()
+            await self._latest.done_or_news(future, LOOK_EVERY)
             if self._latest.pending:
                 work.stopped.set()
             elif not future.done() and work.fraction is not None:
