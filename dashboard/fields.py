@@ -1,12 +1,13 @@
 """The table of a design's numbers as they are shown: what they are called, units, sliders, help.
 
 Sliders, report, comparison table, link, study and lessons read it. The ranges here are those of the sliders
-[display units]; what the core takes [SI] stands in ``trackig_core.track.design.RANGES``.
+[display units]: where a designer chooses the number, the core's ``SLIDER_RANGES``, which its searches cover
+too. What the core takes [SI] stands in ``RANGES`` of ``trackig_core.track.fields``.
 """
 
 from dataclasses import dataclass
 
-from trackig_core.track.fields import DEFAULT_WHEEL_LOAD
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, SLIDER_RANGES
 
 OPENING_PRESET = "booted-block-low-mass"
 """The preset on which the dashboard opens."""
@@ -99,44 +100,51 @@ class Field:
 
 _STIFF = ("kN/mm", NEWTON_PER_METRE)
 
+
+def _of_slider(name, label, unit, factor, step, *rest, **options):
+    """Return a number that a designer chooses (Field), over the range that the core searches."""
+    low, high = (six_figures(end / factor) for end in SLIDER_RANGES[name])
+    return Field(name, label, unit, factor, low, high, step, *rest, **options)
+
+
 FIELDS = {
     field.name: field
     for field in (
-        Field(
-            *("pad_stiffness", "Pad stiffness", *_STIFF, 10, 2000, 1, "Rail pad"),
+        _of_slider(
+            *("pad_stiffness", "Pad stiffness", *_STIFF, 1, "Rail pad"),
             "Dynamic stiffness between rail and block, or ground; at 50 Hz unless stated.",
             logarithmic=True,
         ),
-        Field(
-            *("pad_loss_factor", "Pad loss factor", "", 1.0, 0.01, 0.5, 0.01, "Rail pad"),
+        _of_slider(
+            *("pad_loss_factor", "Pad loss factor", "", 1.0, 0.01, "Rail pad"),
             "Part of the pad's stiffness that damps: it limits the peak at the loaded-track frequency.",
         ),
-        Field(
-            *("block_mass", "Block mass", "kg", 1.0, 10, 500, 1, "Block and boot"),
+        _of_slider(
+            *("block_mass", "Block mass", "kg", 1.0, 1, "Block and boot"),
             "Mass between pad and boot; above the coupled-block frequency it isolates.",
             second_stage=True,
         ),
-        Field(
-            *("boot_stiffness", "Boot stiffness", *_STIFF, 2, 200, 0.5, "Block and boot"),
+        _of_slider(
+            *("boot_stiffness", "Boot stiffness", *_STIFF, 0.5, "Block and boot"),
             "Dynamic stiffness under the block, at 50 Hz unless stated; the softer, the lower it isolates.",
             logarithmic=True,
             second_stage=True,
         ),
-        Field(
-            *("boot_loss_factor", "Boot loss factor", "", 1.0, 0.01, 0.5, 0.01, "Block and boot"),
+        _of_slider(
+            *("boot_loss_factor", "Boot loss factor", "", 1.0, 0.01, "Block and boot"),
             "Part of the boot's stiffness that damps.",
             second_stage=True,
         ),
-        Field(
-            *("fastener_spacing", "Fastener spacing", "m", 1.0, 0.2, 1.0, 0.01, "Track"),
+        _of_slider(
+            *("fastener_spacing", "Fastener spacing", "m", 1.0, 0.01, "Track"),
             "Distance between supports along the rail: the wider, the softer the track.",
         ),
-        Field(
-            *("wheel_mass", "Unsprung wheel mass", "kg", 1.0, 200, 1500, 10, "Vehicle"),
+        _of_slider(
+            *("wheel_mass", "Unsprung wheel mass", "kg", 1.0, 10, "Vehicle"),
             "Mass that bounces on the track below the primary suspension, of one wheel.",
         ),
-        Field(
-            *("contact_stiffness", "Contact stiffness", *_STIFF, 200, 5000, 10, "Advanced"),
+        _of_slider(
+            *("contact_stiffness", "Contact stiffness", *_STIFF, 10, "Advanced"),
             "Hertzian spring between wheel and rail; in series with the track's stiffness.",
             logarithmic=True,
         ),

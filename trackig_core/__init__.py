@@ -14,6 +14,7 @@ The model of Thornely-Taylor, Bewes and Sica (2021), "A simplified model for cal
 gain of track support systems using the finite difference method". SI units throughout.
 """
 
+import sys
 from importlib import import_module
 from importlib.metadata import version
 
@@ -86,4 +87,12 @@ def __getattr__(name: str) -> object:
     for part in _PARTS:
         if name in part.__all__:
             return getattr(part, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    # with the module, Python says which name may have been meant
+    raise AttributeError(
+        f"module {__name__!r} has no attribute {name!r}", name=name, obj=sys.modules[__name__]
+    )
+
+
+def __dir__() -> list[str]:
+    """Return what is offered to choose from: the door and, not yet loaded, ``decide``."""
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__")), "decide"})

@@ -52,7 +52,7 @@ log = logging.getLogger(__name__)
 
 
 class Scripted(pn.custom.JSComponent):
-    """A component with a script of ours: what the script says is heeded when the document may change."""
+    """A component with a script of ours: its messages are handled when the document may change."""
 
     __abstract = True
 
@@ -69,7 +69,7 @@ class Scripted(pn.custom.JSComponent):
             with one_message(document):
                 self.handle_message(message)
         except Exception:
-            log.exception("A message from the browser could not be heeded")
+            log.exception("A message from the browser could not be handled")
             notify("error", HANDLING_FAILED)
 
 

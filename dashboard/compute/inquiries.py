@@ -97,9 +97,7 @@ class InquiryRunner:
     async def _follow(self, future, work, document):
         """Wait until a question is answered, and tell how far it is; a newer one ends it."""
         while not future.done():
-            news = asyncio.ensure_future(self._latest.news.wait())
-            await asyncio.wait({future, news}, timeout=LOOK_EVERY, return_when=asyncio.FIRST_COMPLETED)
-            news.cancel()
+            await self._latest.done_or_news(future, LOOK_EVERY)
             if self._latest.pending:
                 work.stopped.set()
             elif not future.done() and work.fraction is not None:
@@ -153,14 +151,15 @@ def question_of(kind, settings, assessment, definition, design=None):
     trackig_core.decide.Question or None
         The question; None as long as it cannot be asked, for want of a specification or of a first solution.
     """
+    design = assessment.current.design if design is None else design
     with contextlib.suppress(ValueError):
         return tig.decide.Question(
             kind,
-            assessment.current.design if design is None else design,
+            design,
             settings,
             specification=assessment.specification,
             source=assessment.source,
-            reference=definition.reference_of(assessment.current.design),
+            reference=definition.reference_of(design),
             summation=definition.summation,
         )
     return None

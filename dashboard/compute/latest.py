@@ -45,6 +45,14 @@ class Latest:
             await asyncio.wait_for(self.news.wait(), seconds)
         return self.pending
 
+    async def done_or_news(self, future, seconds):
+        """Wait until something is done or the work is asked for anew, some time [s] at most."""
+        news = asyncio.ensure_future(self.news.wait())
+        try:
+            await asyncio.wait({future, news}, timeout=seconds, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            news.cancel()
+
     async def ask(self, *_):
         """Ask for the work, and see it through unless it is under way already."""
         if self._running:

@@ -202,7 +202,7 @@ class Runner(param.Parameterized):
             taken = time.monotonic() - began
             if not live.done() or live.exception() is not None:
                 self._publish(document, **self._success(design, summary, from_cache))
-                await self._look_up(live, whatever_is_new=True, seconds=PATIENCE)
+                await self._latest.done_or_news(live, PATIENCE)
                 if not live.done() and self._latest.pending:
                     raise _SupersededError
         self._live_is_slow = time.monotonic() - began > SOON
@@ -240,7 +240,10 @@ class Runner(param.Parameterized):
         future.add_done_callback(lambda done: done.cancelled() or done.exception())
         moving = job.key[1] != AT_REST
         while not future.done():
-            await self._look_up(future, whatever_is_new=not moving)
+            if moving:
+                await asyncio.wait({future}, timeout=LOOK_EVERY)
+            else:
+                await self._latest.done_or_news(future, LOOK_EVERY)
             if future.done():
                 return
             if self._stopping:
@@ -252,15 +255,6 @@ class Runner(param.Parameterized):
                 raise _SupersededError
             if worked > LONG:
                 self._publish(document, busy=True, progress=job.fraction, asked=job.key[0])
-
-    async def _look_up(self, future, whatever_is_new, seconds=LOOK_EVERY):
-        """Wait until a solve is done, for a while at most, or until newer inputs arrive."""
-        news = asyncio.ensure_future(self._latest.news.wait())
-        try:
-            waited_for = {future, news} if whatever_is_new else {future}
-            await asyncio.wait(waited_for, timeout=seconds, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            news.cancel()
 
     def _publish(self, document, **changes):
         publish(self.outcome, document, **changes)

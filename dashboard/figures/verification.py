@@ -143,13 +143,13 @@ class ReceptanceFigure:
     ----------
     model : bokeh.plotting.figure
         The figure.
-    peer, twin : bokeh.models.ColumnDataSource
-        Named ``peer`` and ``twin``: ``frequency`` [Hz] and magnitudes [nm/kN].
+    peer, solution : bokeh.models.ColumnDataSource
+        Named ``peer`` and ``solution``: ``frequency`` [Hz] and magnitudes [nm/kN].
     """
 
     def __init__(self):
         self.peer = ColumnDataSource(name="peer", data={"frequency": [], "euler": [], "timoshenko": []})
-        self.twin = ColumnDataSource(name="twin", data={"frequency": [], "receptance": []})
+        self.solution = ColumnDataSource(name="solution", data={"frequency": [], "receptance": []})
         self.model = blank_figure(
             name="receptance_figure",
             x_axis_type="log",
@@ -163,7 +163,7 @@ class ReceptanceFigure:
         self.model.line(
             x="frequency",
             y="receptance",
-            source=self.twin,
+            source=self.solution,
             line_color=theme.THEORY,
             line_width=theme.THIN_LINE_WIDTH,
             legend_label="frequency-domain solution, 24 elements a bay",
@@ -202,8 +202,8 @@ class ReceptanceFigure:
             "euler": scale * np.abs(peer.euler),
             "timoshenko": scale * np.abs(peer.timoshenko),
         }
-        self.twin.data = {"frequency": frequency, "receptance": scale * np.abs(receptance)}
-        _hold(self.model.y_range, self.twin.data["receptance"], self.peer.data["timoshenko"])
+        self.solution.data = {"frequency": frequency, "receptance": scale * np.abs(receptance)}
+        _hold(self.model.y_range, self.solution.data["receptance"], self.peer.data["timoshenko"])
 
 
 class TimeStepFigure:

@@ -1,4 +1,4 @@
-"""The catalogue of components: what is in it, whence it comes, and how another is opened.
+"""The catalogue of components: what is in it, where it comes from, and how another is opened.
 
 What is chosen from it is chosen in the sidebar, in each group.
 """

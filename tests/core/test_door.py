@@ -101,9 +101,17 @@ def test_the_door_is_small():
     assert len(tig.__all__) <= 36
 
 
-def test_an_unknown_name_is_refused():
+def test_an_unknown_name_is_refused_and_the_right_one_is_offered():
     with pytest.raises(AttributeError, match="no attribute 'solv'"):
         tig.solv  # noqa: B018
+    code = "import trackig_core as tig; tig.solv"
+    typed = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert "no attribute 'solv'. Did you mean: 'solve'?" in typed.stderr
+
+
+def test_what_can_be_chosen_from_is_the_door_and_all_of_its_parts():
+    offered = [name for name in dir(tig) if not name.startswith("_")]
+    assert offered == sorted({*tig.__all__, "decide"})
 
 
 def test_the_first_example_runs():

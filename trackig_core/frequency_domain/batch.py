@@ -9,7 +9,7 @@ import numbers
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
@@ -80,7 +80,7 @@ INTERVALS_PER_BAND = 6
 _BAND_CUBES = np.diff(BAND_EDGES**3) / 3
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class BatchSolution:
     """Insertion gain and natural frequencies of many designs.
 
@@ -107,12 +107,12 @@ class BatchSolution:
         Static load of the wheel, for :attr:`rail_deflection`.
     """
 
-    columns: Columns = field(repr=False)
-    loaded_track: RealArray = field(repr=False)
-    coupled_block: RealArray = field(repr=False)
-    resolved: BoolArray = field(repr=False)
-    energy_ratio: NDArray[np.float32] = field(repr=False)
-    line_ratio: RealArray = field(repr=False)
+    columns: Columns
+    loaded_track: RealArray
+    coupled_block: RealArray
+    resolved: BoolArray
+    energy_ratio: NDArray[np.float32]
+    line_ratio: RealArray
     reference: str = "line"
     summation: str = "energy"
     wheel_load: float = DEFAULT_WHEEL_LOAD
@@ -205,6 +205,15 @@ class BatchSolution:
             The design.
         """
         return _design({name: values[row] for name, values in self.columns.items()})
+
+    def __repr__(self) -> str:
+        """Return the designs' number, their loaded-track frequencies and the definition, on one line."""
+        found, number = self.loaded_track, self.loaded_track.size
+        tracks = f", loaded track {found.min():.1f} to {found.max():.1f} Hz" if number else ""
+        return (
+            f"<BatchSolution: {number} design{'s' * (number != 1)}{tracks}, "
+            f"reference {self.reference}, summation {self.summation}>"
+        )
 
     def to_dataframe(self) -> "pandas.DataFrame":
         """Return a table of the designs.

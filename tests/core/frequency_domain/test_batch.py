@@ -273,6 +273,17 @@ def test_choices_are_checked():
         solve_many([BLOCK], pad_stiffness=[1e8])
 
 
+def test_many_designs_are_shown_on_one_line():
+    many = solve_many([BLOCK, SLAB], reference="rigid", summation="coherent")
+    low, high = sorted(many.loaded_track)
+    assert repr(many) == (
+        f"<BatchSolution: 2 designs, loaded track {low:.1f} to {high:.1f} Hz, "
+        "reference rigid, summation coherent>"
+    )
+    assert repr(solve_many(BLOCK)).startswith("<BatchSolution: 1 design, ")
+    assert repr(solve_many(BLOCK, pad_stiffness=np.array([]))).startswith("<BatchSolution: 0 designs, ref")
+
+
 def test_a_data_frame_has_a_row_per_design():
     pandas = pytest.importorskip("pandas")
     frame = solve_many([BLOCK, SLAB]).to_dataframe()

@@ -22,7 +22,7 @@ def exchange(session):
 
 
 def handle_message(exchange, message):
-    """Have a message heeded where changes are followed: in a loop, as a session has."""
+    """Have a message handled where changes are followed: in a loop, as a session has."""
 
     async def run():
         exchange.handle_message(message)

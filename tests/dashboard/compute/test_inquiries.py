@@ -169,3 +169,12 @@ def test_what_cannot_be_asked_is_no_question(make_pictures):
     assessment.specification = LIMITS
     question = question_of("range", {}, assessment, definition)
     assert (question.design, question.specification, question.reference) == (BLOCK, LIMITS, "rigid")
+
+
+def test_the_reference_is_that_of_the_design_that_is_asked_about(make_pictures):
+    """On ground that yields only a stiff track is a reference, whatever the current design stands on."""
+    assessment = Assessment(DesignInputs(), Outcome(), GainDefinition(), Pins(), make_pictures())
+    assessment.specification = LIMITS
+    yielding = BLOCK.replace(ground=tig.Ground(stiffness=1e8, damping=1e5, mass=500.0))
+    question = question_of("range", {}, assessment, GainDefinition(reference="rigid"), design=yielding)
+    assert (question.design, question.reference) == (yielding, "stiff")

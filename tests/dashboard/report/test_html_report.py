@@ -292,6 +292,15 @@ def test_forces_are_drawn_in_kilonewton_over_milliseconds(plots, summaries):
     assert axes.get_ylabel() == "Force into the ground, kN"
 
 
+def test_the_force_axis_holds_the_whole_force_of_this_design_upright(plots, study, summaries):
+    """The first design sets the scale, a tenth beyond its extremes, whatever the others reach."""
+    html_report(study, summaries, date=DAY, version="1")
+    force = summaries[LOW].total_force
+    assert force.min() < 0 < force.max()
+    assert plots["force"].get_ylim() == pytest.approx((1.1 * force.min(), 1.1 * force.max()))
+    assert max(each.total_force.max() for each in summaries.values()) > 1.1 * force.max()
+
+
 def test_what_the_simplified_model_leaves_out_is_reported_on_request(study, summaries):
     found = left_out(study.design, "metro", "rock", "energy")
     page = html_report(study, summaries, date=DAY, version="1", left_out=found)
