@@ -9,6 +9,7 @@ from dashboard.session.answers import FIGURE_WORDS
 from dashboard.views.components import bokeh_pane
 from dashboard.views.decide.asked import NO_SPECIFICATION, Asked
 from dashboard.views.decide.inputs import choice, number_options
+from trackig_core.decide.words import percent
 
 
 class Map(Asked):
@@ -73,7 +74,7 @@ class Map(Asked):
         if result.complies is None:
             return f"{result.x.size} times {result.y.size} designs over {x} and {y}. Tap one to take it."
         return (
-            f"{100 * result.complies.mean():.0f} % of the designs over {x} and {y} comply. "
+            f"{percent(float(result.complies.mean()))} of the designs over {x} and {y} comply. "
             "Tap one to take it to the sliders; Ctrl+Z brings the old one back."
         )
 

@@ -149,8 +149,10 @@ class Search(Asked):
             else:
                 by = f"misses the limit at {found.in_the_way} Hz by {miss:.1f} dB"
             return f"None of {tried} complies; the closest {by}."
+        complying = int(found.complies.sum())
         return (
-            f"{int(found.complies.sum())} of {tried} comply; {found.front.size} of them no other beats. "
+            f"{complying} of {tried} {'complies' if complying == 1 else 'comply'}; "
+            f"{found.front.size} of them no other beats. "
             "Brush the pictures to see their insertion gain; tap a design to take or pin it."
         )
 
