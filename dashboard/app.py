@@ -34,7 +34,7 @@ from dashboard.session.production import Production
 from dashboard.session.results import Outcome
 from dashboard.session.shelf import Shelf
 from dashboard.views.compare import Compare
-from dashboard.views.decide import Decide
+from dashboard.views.decide.tab import Decide
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.explore import Explore
 from dashboard.views.learn import Learn

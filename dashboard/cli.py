@@ -418,7 +418,11 @@ def _report(options):
         design: _summary(design, options.fidelity)
         for design in {each.design for each in (*shown_designs(opened), base_design(opened))}
     }
-    report = html_report(opened, summaries, date=datetime.date.today(), version=tig.__version__)
+    try:
+        pages = cli_decide.pages_of(opened.answers)
+    except tig.SolveCancelled:
+        return STOPPED
+    report = html_report(opened, summaries, date=datetime.date.today(), version=tig.__version__, pages=pages)
     _write(options.output, report)
     if options.output != STANDARD_OUTPUT:
         sys.stdout.write(f"{options.output}\n")

@@ -351,7 +351,7 @@ def _answer(shell, kind, settings, options):
         reference=reference_for(design, study.view.reference),
         summation=study.view.summation,
     )
-    with _watched(options.scheduler) as how:
+    with watched(options.scheduler) as how:
         result = question.ask(**how)
     table = result.to_dataframe()
     if STANDARD_OUTPUT not in (options.csv, options.json):
@@ -380,7 +380,7 @@ def _job(study, kind, settings, options):
         size = given.pop("samples", SAMPLES)
         designs = Samples(design, given.pop("tolerances", {}), size, **given)
     view = study.view
-    with _watched(options.scheduler) as how:
+    with watched(options.scheduler) as how:
         job = run_job(
             designs,
             options.parquet,
@@ -467,8 +467,49 @@ def _json(answer, table):
     return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
 
 
+def pages_of(answers):
+    """Return what the report shows of a study's answers, each asked again.
+
+    Parameters
+    ----------
+    answers : sequence of trackig_core.decide.Answer
+        The answers as they were kept.
+
+    Returns
+    -------
+    dict of str to AnswerPage
+        Tables and plots by digest. Of an answer to which other figures come out, or none, there is no page,
+        and standard error says so.
+
+    Raises
+    ------
+    trackig_core.SolveCancelled
+        If the user pressed Ctrl+C.
+    """
+    # plots are slow to load
+    from dashboard.report.answer_pages import page_if_same
+
+    pages = {}
+    for answer in answers:
+        said = f"kept answer {answer.sentence[:60]!r}"
+        try:
+            with watched(None) as how:
+                result = answer.question.ask(**how)
+                if how["cancelled"]():  # a search returns what it has found until then
+                    raise tig.SolveCancelled("the report was cancelled")
+                page = page_if_same(answer, result)
+        except (ValueError, KeyError) as error:
+            sys.stderr.write(f"{said}: not asked again: {error.args[0]}; the report has its words alone\n")
+            continue
+        if page is None:
+            sys.stderr.write(f"{said}: other figures come out now; the report has its words alone\n")
+        else:
+            pages[answer.digest] = page
+    return pages
+
+
 @contextmanager
-def _watched(scheduler):
+def watched(scheduler):
     """Tell on standard error how far it is, and let Ctrl+C ask it to end; a second Ctrl+C ends it at once."""
     stop = threading.Event()
 

@@ -122,5 +122,5 @@ def where(result, name):
         elif high == greatest:
             texts.append(f"at least {begin}")
         else:
-            texts.append(f"{begin} to {end}")
+            texts.append(f"from {begin} to {end}")
     return " or ".join(texts)

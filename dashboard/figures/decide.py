@@ -6,6 +6,7 @@ Built once with Bokeh, then fed by assigning each data source's ``data``. Quanti
 import numpy as np
 from bokeh.events import Tap
 from bokeh.models import (
+    BasicTicker,
     BoxSelectTool,
     ColorBar,
     ColumnDataSource,
@@ -44,6 +45,9 @@ CELL = 0.9
 
 LEAST_CHANGE = 0.1
 """What the scale of a heat map reaches at least on either side [dB]."""
+
+TORNADO_TICKS = 4
+"""Ticks that the axis of a tornado aims at [-]: labels such as −0.025 then fit into a narrow window."""
 
 MOST_DRAWN = 1000
 """Designs of a search that are drawn [-]: the front, and of the rest as many as fit."""
@@ -149,6 +153,8 @@ class TornadoFigure:
         )
         dress(plot, "Change of a figure with each field")
         plot.ygrid.visible = False
+        # changes of a hundredth have long labels, which would run into each other
+        plot.xaxis.ticker = plot.xgrid.ticker = BasicTicker(desired_num_ticks=TORNADO_TICKS)
         plot.add_layout(zero_line("height"))
         sides = (
             ("less", theme.LOADED_TRACK, "", 0.2),

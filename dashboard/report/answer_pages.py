@@ -15,6 +15,7 @@ from dashboard.compute.feasibility import where
 from dashboard.fields import FIELDS
 from dashboard.report import plots
 from dashboard.session.answers import FIGURE_WORDS, TITLES, field_label, settings_texts, with_unit
+from trackig_core.decide.questions import digest
 
 MOST_ROWS = 24
 """Designs of a front that are listed [-]: what fits on a page; the CSV has all."""
@@ -74,6 +75,24 @@ def answer_page(answer, result):
         Tables and a plot.
     """
     return PAGES[answer.question.kind](answer, result)
+
+
+def page_if_same(answer, result):
+    """Return what the report shows of an answer to a question that was asked again.
+
+    Parameters
+    ----------
+    answer : trackig_core.decide.Answer
+        The answer as it was kept.
+    result : object
+        What comes out now.
+
+    Returns
+    -------
+    AnswerPage or None
+        Tables and a plot; None where other figures come out.
+    """
+    return answer_page(answer, result) if digest(result) == answer.digest else None
 
 
 def question_lines(answer):

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -239,6 +240,34 @@ def test_designs_go_to_a_folder_part_by_part(save, tmp_path, capsys):
     found = pd.read_parquet(tmp_path / "samples")["boot_stiffness"]
     expected = tig.decide.tolerance(BLOCK, CEILING, {"boot_stiffness": 0.1}, samples=200)
     assert found.tolist() == expected.many.columns["boot_stiffness"][:50].tolist()
+
+
+QUESTIONS = {
+    "tolerance": {"tolerances": {"boot_stiffness": {"uniform": 0.1}}, "samples": 200},
+    "map": {"x_field": "boot_stiffness", "y_field": "block_mass", "figures": ["margin"], "points": [12, 9]},
+    "find": {"free": ["boot_stiffness"], "population": 8, "generations": 2},
+}
+
+
+def test_a_report_has_the_pictures_of_kept_answers_that_come_out_again(save, tmp_path, capsys):
+    answers = []
+    for kind, settings in QUESTIONS.items():
+        question = tig.decide.Question(kind, BLOCK, settings, CEILING)
+        answers.append(tig.decide.Answer.of(question, question.ask()))
+    other = tig.decide.Question("map", BLOCK, {**QUESTIONS["map"], "points": [5, 5]}, CEILING)
+    answers.append(tig.decide.Answer(other, "It was otherwise.", "0" * 64, {}))
+    unanswerable = tig.decide.Question("map", BLOCK, {**QUESTIONS["map"], "points": [1, 5]}, CEILING)
+    answers.append(tig.decide.Answer(unanswerable, "Nobody could say.", "1" * 64, {}))
+    out = tmp_path / "report.html"
+    assert main(["report", save(answers=answers), str(out), "--fidelity", "exact"]) == 0
+    text = out.read_text(encoding="utf-8")
+    sections = re.findall(r'<section class="page">.*?</section>', text, re.DOTALL)
+    assert ["<svg" in section for section in sections] == [True, True, False, False, False]
+    assert "Designs of the front" in sections[2]
+    assert ["ask again on the tab Decide" in section for section in sections] == [False] * 3 + [True] * 2
+    notes = [line for line in capsys.readouterr().err.splitlines() if line.startswith("kept answer")]
+    assert "'It was otherwise.': other figures come out now" in notes[0]
+    assert "'Nobody could say.': not asked again: points = (1, 5): give two numbers from 2" in notes[1]
 
 
 @pytest.mark.slow

@@ -4,6 +4,9 @@ Locally, by exact differences: each field is changed up and down, all others hel
 by Sobol indices: the part of a figure's variance over the tolerances that is due to a field alone (first
 order), and with all its interactions (total). SI units, dB, Hz. Source of the indices: Saltelli et al.
 (2010), "Variance based sensitivity analysis of model output", as scipy.stats.sobol_indices has it.
+
+Morris' elementary effects are not offered: they rank fields with few solutions, where each is dear. Here the
+12 000 designs of the indices of ten fields take half a second of a processor, and say how much besides which.
 """
 
 from __future__ import annotations

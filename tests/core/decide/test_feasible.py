@@ -154,8 +154,22 @@ def test_it_says_so_when_nothing_helps():
     assert found.to_dataframe().empty
 
 
+@pytest.mark.parametrize("above", [0.1, 2.0])
+def test_the_coarse_scan_moves_no_edge(monkeypatch, above):
+    """What is left to the spline, far from just complying, is solved too: the same stretches come out."""
+    designs = random_designs(4, seed=31)
+    limits = [limits_around(each, above, bands=range(4, 21, 3)) for each in designs]
+    found = [feasible_ranges(*each) for each in zip(designs, limits, strict=True)]
+    monkeypatch.setattr(feasible, "CLEAR", np.inf)
+    for design, specification, coarse in zip(designs, limits, found, strict=True):
+        fine = feasible_ranges(design, specification)
+        assert [len(fine[name]) for name in fine] == [len(coarse[name]) for name in fine]
+        for name in fine:
+            np.testing.assert_allclose(coarse[name], fine[name], rtol=1e-4)
+
+
 @pytest.mark.parametrize("above", [0.3, 1.0, 3.0])
-def test_all_fields_cost_some_twelve_hundred_designs(monkeypatch, above):
+def test_all_fields_cost_some_nine_hundred_designs(monkeypatch, above):
     """At 30 us each on two processors: right again well within 200 ms of the last move of a slider."""
     solved = []
 
@@ -167,6 +181,6 @@ def test_all_fields_cost_some_twelve_hundred_designs(monkeypatch, above):
     monkeypatch.setattr(feasible, "solve_designs", count)
     for preset in tig.PRESETS.values():
         feasible_ranges(preset, limits_around(preset, above), max_deflection=0.003)
-        assert len(solved) <= 4
-        assert sum(solved) <= 1700
+        assert len(solved) <= 5
+        assert sum(solved) <= 1300
         solved.clear()

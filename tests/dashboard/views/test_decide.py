@@ -19,8 +19,8 @@ from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.production import Production
 from dashboard.session.results import Outcome
-from dashboard.views.asked import NO_SPECIFICATION
-from dashboard.views.decide import Decide
+from dashboard.views.decide.asked import NO_SPECIFICATION
+from dashboard.views.decide.tab import Decide
 
 WAIT = 60
 LIMITS = tig.Specification(

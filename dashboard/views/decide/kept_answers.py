@@ -10,7 +10,6 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.viewable import Viewer
 
-import trackig_core as tig
 from dashboard import theme
 from dashboard.compute.document import NextTick
 from dashboard.compute.inquiries import Inquiry, InquiryRunner
@@ -71,8 +70,8 @@ class KeptRow(Viewer):
     async def _compare(self, event):
         """Say whether the same figures came out; if so, the report can show them."""
         loop = asyncio.get_running_loop()
-        digest, page = await loop.run_in_executor(workers(), page_of, self._answer, event.new)
-        if digest == self._answer.digest:
+        page = await loop.run_in_executor(workers(), page_of, self._answer, event.new)
+        if page is not None:
             self._answers.note_page(self._answer, page)
             self._say("The same figures came out, to the last bit.", "fine")
             return
@@ -99,12 +98,11 @@ class KeptRow(Viewer):
 
 
 def page_of(answer, result):
-    """Return the digest of a result, and what the report shows of it if that is the answer's (or None)."""
+    """Return what the report shows of an answer that came out again, or None."""
     # plots are slow to load
-    from dashboard.report.answer_pages import answer_page
+    from dashboard.report.answer_pages import page_if_same
 
-    digest = tig.decide.questions.digest(result)
-    return digest, answer_page(answer, result) if digest == answer.digest else None
+    return page_if_same(answer, result)
 
 
 class KeptAnswers(Viewer):

@@ -1,0 +1,1 @@
+"""The tab Decide, a module for each of its questions."""

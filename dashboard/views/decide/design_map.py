@@ -1,0 +1,96 @@
+"""A figure over two numbers of the design, with the edge of compliance."""
+
+import panel as pn
+
+import trackig_core as tig
+from dashboard.fields import FIELDS
+from dashboard.figures.decide import MapFigure
+from dashboard.session.answers import FIGURE_WORDS
+from dashboard.views.components import bokeh_pane
+from dashboard.views.decide.asked import NO_SPECIFICATION, Asked
+from dashboard.views.decide.inputs import choice, number_options
+from trackig_core.decide.words import percent
+
+
+class Map(Asked):
+    """A figure over two fields, with the edge of compliance; a tap takes the design."""
+
+    kind = "map"
+
+    def __init__(self, snapshot, exchange, take):
+        super().__init__(snapshot, exchange)
+        self._take = take
+        self.x, self.y = (
+            choice(
+                label=words,
+                options=number_options(),
+                value=name,
+                width=200,
+            )
+            for words, name in (("Across", "boot_stiffness"), ("Up", "block_mass"))
+        )
+        self.figure = choice(
+            label="Figure",
+            options={words: name for name, (words, _) in FIGURE_WORDS.items() if name != "cost"}
+            | {f"Insertion gain at {label} Hz, dB": label for label in tig.BAND_LABELS},
+            width=250,
+        )
+        self.map = MapFigure(self._tapped)
+        self.place = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.button.label = "Draw the map"
+        self.figure.param.watch(self.ask_again, "value")
+
+    def ask_again(self, *_):
+        """Draw another figure of a map that was asked for."""
+        if self.inquiry.asked is not None:
+            self.ask()
+
+    def settings(self):
+        """Return what is asked about the current design."""
+        specification = self.assessment.specification
+        if specification is None and self.figure.value == "margin":
+            raise ValueError(NO_SPECIFICATION)
+        edges = [] if specification is None else ["margin"]
+        if specification is not None and specification.rail_deflection_limit is not None:
+            edges.append("deflection")
+        figures = list(dict.fromkeys([self.figure.value, *edges]))
+        return {"x_field": self.x.value, "y_field": self.y.value, "figures": figures}
+
+    def show(self, result):
+        """Draw the map."""
+        name = next(iter(result.figures))
+        words = next(words for words, each in self.figure.options.items() if each == name)
+        designs = [self.assessment.current, *self.assessment.shown_pins]
+        specification = self.assessment.specification
+        limits = {} if specification is None else {"margin": 0.0}
+        if "deflection" in result.figures and specification is not None:
+            limits["deflection"] = specification.rail_deflection_limit
+        self.map.show(result, name, words, designs, limits)
+        self.place.objects = [bokeh_pane(self.map.layout)]
+
+    def words(self, result):
+        """Return the answer in one sentence."""
+        x, y = (FIELDS[name].label.lower() for name in (result.x_field, result.y_field))
+        if result.complies is None:
+            return f"{result.x.size} times {result.y.size} designs over {x} and {y}. Tap one to take it."
+        return (
+            f"{percent(float(result.complies.mean()))} of the designs over {x} and {y} comply. "
+            "Tap one to take it to the sliders; Ctrl+Z brings the old one back."
+        )
+
+    def _tapped(self, x, y):
+        result = self.inquiry.result
+        if result is not None and x is not None and y is not None:
+            values = (FIELDS[result.x_field].factor * x, FIELDS[result.y_field].factor * y)
+            self._take(result.design_at(*values))
+
+    def build(self):
+        """Return what is put on the page."""
+        return pn.Column(
+            pn.FlexBox(self.x, self.y, self.figure, self.button, self.progress, self.stop, margin=(0, 12)),
+            self.sentence,
+            self.answered_row,
+            self.place,
+            sizing_mode="stretch_width",
+            margin=0,
+        )

@@ -1,0 +1,76 @@
+"""How far each number of the design may go, all others held."""
+
+import html
+
+import panel as pn
+
+from dashboard import theme
+from dashboard.compute.feasibility import where
+from dashboard.fields import FIELDS
+from dashboard.session.answers import with_unit
+from dashboard.views.components import caption, panel
+from dashboard.views.decide.asked import NO_SPECIFICATION, Asked
+
+
+class HowFar(Asked):
+    """How far each number of the design may go, all others held."""
+
+    kind = "range"
+
+    def __init__(self, snapshot, exchange, feasibility):
+        super().__init__(snapshot, exchange, feasibility)
+        self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
+        feasibility.param.watch(self._dim, "stale")
+        self._answered()
+
+    def _answered(self):
+        super()._answered()
+        if self.inquiry.result is None:
+            self._say(self.inquiry.problem or NO_SPECIFICATION)
+            self.table.object = ""
+
+    def _dim(self, *_):
+        self.table.styles = theme.STALE if self.inquiry.stale else theme.FRESH
+
+    def words(self, result):
+        """Return the answer in one sentence, in the units of the sliders."""
+        verdict = "complies" if result.complies else "fails"
+        side = "within" if result.margin >= 0 else "beyond"
+        said = (
+            f"The design {verdict}, {abs(result.margin):.1f} dB {side} the limit at {result.governed_by} Hz"
+        )
+        if result.deflection_limit is not None:
+            said += (
+                f", its rail sinking {1e3 * result.deflection:.2f} of {1e3 * result.deflection_limit:.2f} mm"
+            )
+        ways = [
+            f"{FIELDS[name].label.lower()} {where(result, name)}"
+            for name in result
+            if result[name] and name in FIELDS
+        ]
+        if result.complies:
+            return f"{said}."
+        if not ways:
+            return f"{said}; no change of a single number makes it comply."
+        return f"{said}; it complies with {', or '.join(ways)}."
+
+    def show(self, result):
+        """List the ranges."""
+        rows = "".join(
+            f"<tr><th scope='row'>{html.escape(FIELDS[name].label)}</th>"
+            f"<td>{with_unit(name, getattr(result.design, name))}</td><td>{where(result, name)}</td></tr>"
+            for name in result
+            if name in FIELDS
+        )
+        self.table.object = (
+            "<div class='scroll'><table>"
+            "<thead><tr><th>All others held</th><th>now</th><th>complies</th></tr></thead>"
+            f"<tbody>{rows}</tbody></table></div>"
+        )
+
+    def build(self):
+        """Return what is put on the page."""
+        return panel(caption("How far?", HOW_FAR), self.sentence, self.answered_row, self.table)
+
+
+HOW_FAR = "where the design complies along each number, all others held"

@@ -1,0 +1,159 @@
+"""How sure the design is to comply when production scatters."""
+
+import html
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+
+import trackig_core as tig
+from dashboard import formats, theme
+from dashboard.fields import FIELDS
+from dashboard.figures.decide import PercentileFigure
+from dashboard.persistence.samples import SamplesError, read_samples
+from dashboard.views.components import bokeh_pane, caption, panel
+from dashboard.views.decide.asked import BOX, BUTTON, Asked
+from dashboard.views.decide.inputs import choice, factor_label, is_number, percent_box
+
+USUAL_TOLERANCES = {
+    "pad_stiffness": 15.0,
+    "pad_loss_factor": 20.0,
+    "block_mass": 2.0,
+    "boot_stiffness": 15.0,
+    "boot_loss_factor": 20.0,
+    "fastener_spacing": 2.0,
+}
+"""Tolerances at first [%]: generic ones, to be replaced by those of the supplier."""
+
+
+class HowSure(Asked):
+    """How sure the design is to comply when production scatters."""
+
+    kind = "tolerance"
+
+    def __init__(self, snapshot, exchange, production):
+        super().__init__(snapshot, exchange)
+        self._production, self._specimens = production, {}
+        self.tolerances = {name: percent_box(name, share) for name, share in USUAL_TOLERANCES.items()}
+        self.shape = choice(
+            label="Production",
+            options={"anything within": "uniform", "bell curve, ± two deviations": "normal"},
+            width=250,
+        )
+        self.samples = choice(
+            label="Samples",
+            options={"1 000": 1000, "10 000": 10_000, "100 000": 100_000},
+            value=10_000,
+            width=120,
+        )
+        self.seed = pmui.IntInput(label="Seed", value=0, start=0, size="small", width=110, **BOX)
+        self.percentiles = PercentileFigure()
+        self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
+        self.button.label = "How sure?"
+        self.in_explore = pmui.Checkbox(
+            label="Draw 5 to 95 % of production in Explore too", size="small", margin=(0, 12, 0, 8)
+        )
+        self.pasted = pmui.TextAreaInput(
+            label="Measured specimens, one a row (paste from a spreadsheet, with headers)",
+            placeholder="boot stiffness [kN/mm]; boot loss factor",
+            rows=2,
+            max_rows=6,
+            size="small",
+            sizing_mode="stretch_width",
+            margin=(6, 12, 0, 12),
+        )
+        self.read = pmui.Button(label="Use these specimens", icon="table_rows", on_click=self._read, **BUTTON)
+        self.forget = pmui.Button(
+            label="Use tolerances alone", icon="clear", visible=False, on_click=self._forget, **BUTTON
+        )
+        self.specimens = pn.pane.HTML(
+            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
+        )
+        self.in_explore.param.watch(self._draw_in_explore, "value")
+
+    def _read(self, *_):
+        """Take the table that was pasted in the place of the tolerances of what it holds."""
+        try:
+            self._specimens, notes = read_samples(self.pasted.value or "")
+        except SamplesError as problem:
+            self._tell(str(problem), "problem")
+            return
+        count = len(next(iter(self._specimens.values())))
+        what = " and ".join(FIELDS[name].label.lower() for name in self._specimens)
+        self._tell(". ".join([f"{what.capitalize()} scatter as in {count} specimens", *notes]) + ".", "fine")
+        self._show_boxes()
+
+    def _forget(self, *_):
+        self._specimens = {}
+        self._tell("", "note")
+        self._show_boxes()
+
+    def _show_boxes(self):
+        self.forget.visible = bool(self._specimens)
+        for name, box in self.tolerances.items():
+            box.disabled = name in self._specimens
+
+    def _tell(self, words, kind):
+        self.specimens.object = words and f'<p role="status" class="{kind}">{html.escape(words)}</p>'
+
+    def _draw_in_explore(self, event):
+        self._production.wanted = event.new
+
+    def settings(self):
+        """Return what is asked about the current design."""
+        design, kind = self.assessment.current.design, self.shape.value
+        half = 1.0 if kind == "uniform" else 0.5
+        given = {
+            name: {kind: half * box.value / 100}
+            for name, box in self.tolerances.items()
+            if box.value and is_number(design, name) and name not in self._specimens
+        }
+        if not given and not self._specimens:
+            raise ValueError("Give one of the tolerances: with none, nothing scatters.")
+        settings = {"tolerances": given, "samples": self.samples.value, "seed": self.seed.value or 0}
+        return settings | ({"production": self._specimens} if self._specimens else {})
+
+    def show(self, result):
+        """Draw the percentiles, and say what to tighten."""
+        specification, current = self.assessment.specification, self.assessment.current
+        limit = np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels
+        self.percentiles.show(result.percentiles, current.levels, limit)
+        question = self.inquiry.answered
+        self._production.computed = (
+            *(result.design, question.reference, question.summation),
+            result.percentiles,
+        )
+        low, _, high = result.margin_percentiles
+        rows = "".join(
+            f"<tr><th scope='row'>{html.escape(factor_label(name).capitalize())}</th>"
+            f"<td>{100 * share:.1f} %</td></tr>"
+            for name, share in result.tightened.items()
+        )
+        self.table.object = (
+            f"<div class='scroll'><p>Governing margin of nine in ten: {formats.signed_text(low)} to "
+            f"{formats.signed_text(high)} dB. "
+            f"Worst corner of all tolerances: {formats.signed_text(result.worst_margin)} dB. "
+            f"{result.samples} samples, seed {result.seed}.</p>"
+            "<table><thead><tr><th>Half the scatter of</th><th>complies</th></tr></thead>"
+            f"<tbody>{rows}</tbody></table></div>"
+        )
+
+    def build(self):
+        """Return what is put on the page."""
+        return panel(
+            caption("How sure?", HOW_SURE),
+            pn.FlexBox(*self.tolerances.values(), margin=(0, 12)),
+            self.pasted,
+            pn.FlexBox(self.read, self.forget, margin=(0, 12)),
+            self.specimens,
+            pn.FlexBox(
+                *(self.shape, self.samples, self.seed, self.button, self.progress, self.stop), margin=(0, 12)
+            ),
+            self.sentence,
+            pn.FlexBox(self.answered_row, self.in_explore, margin=0),
+            bokeh_pane(self.percentiles.model),
+            self.table,
+        )
+
+
+HOW_SURE = "how much of production complies, when numbers scatter by their tolerances"

@@ -1,0 +1,246 @@
+"""Designs that comply, and the best of them."""
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+
+import trackig_core as tig
+from dashboard import formats, theme
+from dashboard.compute.document import NextTick
+from dashboard.fields import FIELDS
+from dashboard.figures.decide import CloudFigure
+from dashboard.session.answers import FIGURE_WORDS
+from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside
+from dashboard.views.decide.inputs import choice, is_number, number_options
+from trackig_core.names import LONGEST_NAME
+from trackig_core.track.fields import SCATTERED, SLIDER_RANGES
+
+
+class Search(Asked):
+    """Designs that comply, on the front of margin against what else counts."""
+
+    kind = "find"
+
+    def __init__(self, snapshot, exchange, take, pin):
+        super().__init__(snapshot, exchange)
+        self._take, self._pin, self._chosen = take, pin, None
+        self.free = pn.widgets.CheckBoxGroup(
+            label="Free",
+            options=number_options(),
+            value=["pad_stiffness", "block_mass", "boot_stiffness"],
+            inline=True,
+            stylesheets=[theme.CHECKS_CSS],
+            margin=(0, 12, 0, 0),
+        )
+        self.against = choice(
+            label="Greatest margin against least",
+            options={
+                "rail deflection": "deflection",
+                "block mass": "block_mass",
+                "boot stiffness": "boot_stiffness",
+                "cost": "cost",
+            },
+            width=220,
+        )
+        self.prices = {
+            name: pmui.FloatInput(
+                label=words, value=price, start=0.0, size="small", width=200, visible=False, **BOX
+            )
+            for name, words, price in (
+                ("block_mass", "Cost per kg of block", 1.0),
+                ("fastener_spacing", "Saving per metre of spacing", 0.0),
+            )
+        }
+        self.chosen = pn.widgets.CheckBoxGroup(
+            label="From the catalogue",
+            options={words: kind for kind, words in CATALOGUED.items()},
+            value=[],
+            inline=True,
+            stylesheets=[theme.CHECKS_CSS],
+            margin=(0, 12, 0, 0),
+        )
+        self.deflection = pmui.FloatInput(
+            label="Rail sinks at most, mm (0: as specified)",
+            value=0.0,
+            start=0.0,
+            end=100.0,
+            step=0.1,
+            size="small",
+            width=290,
+            **BOX,
+        )
+        self.seed = pmui.IntInput(label="Seed", value=0, start=0, size="small", width=110, **BOX)
+        self.button.label = "Find designs"
+        self.take = pmui.Button(
+            label="Take to the sliders", icon="tune", disabled=True, on_click=self._take_chosen, **BUTTON
+        )
+        self.pin = pmui.Button(
+            label="Pin", icon="push_pin", disabled=True, on_click=self._pin_chosen, **BUTTON
+        )
+        self.pin_name = pmui.TextInput(
+            label="Name it", value="Found", max_length=LONGEST_NAME, size="small", width=220, **BOX
+        )
+        self.cloud = CloudFigure(self._choose)
+        self.against.param.watch(self._offer_prices, "value")
+        self.inquiry.param.watch(NextTick(self._grow), "so_far")
+
+    def settings(self):
+        """Return what is asked about the current design."""
+        design = self.assessment.current.design
+        choices = {kind: catalogued(kind, design) for kind in self.chosen.value}
+        choices = {kind: offered for kind, offered in choices.items() if offered}
+        taken = {name for kind, offered in choices.items() if kind != "rail" for name in offered[0]}
+        free = [name for name in self.free.value if is_number(design, name) and name not in taken]
+        if not free and not choices:
+            raise ValueError("Choose which numbers are free.")
+        settings = {"free": free, "objectives": ["margin", self.against.value], "seed": self.seed.value or 0}
+        if choices:
+            settings["choices"] = choices
+        if self.deflection.value:
+            settings["max_deflection"] = self.deflection.value / 1e3
+        if self.against.value == "cost":
+            prices = {name: box.value or 0.0 for name, box in self.prices.items()}
+            prices["fastener_spacing"] *= -1
+            settings["cost"] = {name: price for name, price in prices.items() if price}
+        return settings
+
+    def _offer_prices(self, *_):
+        for box in self.prices.values():
+            box.visible = self.against.value == "cost"
+
+    def _grow(self):
+        if self.inquiry.so_far is not None:
+            self._say(self.words(self.inquiry.so_far))
+            self.show(self.inquiry.so_far)
+
+    def show(self, found):
+        """Draw what was found."""
+        specification = self.assessment.specification
+        names = [name for name in FIELDS if name in found.free or _varies(found.many, name)]
+        ends = {
+            name: (FIELDS[name].low * FIELDS[name].factor, FIELDS[name].high * FIELDS[name].factor)
+            for name in names
+        }
+        labels = [
+            f"{FIELDS[name].label}\n{formats.quantity_text(FIELDS[name].low)}–"
+            f"{formats.quantity_text(FIELDS[name].high)} {FIELDS[name].unit}"
+            for name in names
+        ]
+        axes = [_axis(name) for name in found.objectives]
+        reference = self.definition.reference_of(found.many.design(0))
+        levels = found.many.gain_for(reference, self.definition.summation)
+        self.cloud.show(
+            found,
+            levels,
+            labels,
+            ends,
+            (axes[0][0], axes[-1][0]),
+            np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels,
+            (axes[0][1], axes[-1][1]),
+        )
+
+    def words(self, found):
+        """Return the answer in one sentence."""
+        tried = f"{found.slack.size} designs"
+        if not found.front.size:
+            miss = -float(found.slack[found.closest])
+            if found.in_the_way == "deflection":
+                by = f"sinks {10 ** (miss / 20) - 1:.0%} more than allowed"
+            else:
+                by = f"misses the limit at {found.in_the_way} Hz by {miss:.1f} dB"
+            return f"None of {tried} complies; the closest {by}."
+        complying = int(found.complies.sum())
+        return (
+            f"{complying} of {tried} {'complies' if complying == 1 else 'comply'}; "
+            f"{found.front.size} of them no other beats. "
+            "Brush the pictures to see their insertion gain; tap a design to take or pin it."
+        )
+
+    def _choose(self, row):
+        self._chosen = row
+        for button in (self.take, self.pin):
+            button.disabled = row is None
+
+    def _design(self):
+        found = self.inquiry.result if self.inquiry.so_far is None else self.inquiry.so_far
+        return found.many.design(self._chosen)
+
+    def _take_chosen(self, *_):
+        self._take(self._design())
+
+    def _pin_chosen(self, *_):
+        self._pin(self._design(), self.pin_name.value.strip() or "Found")
+
+    def build(self):
+        """Return what is put on the page."""
+        pictures = (self.cloud.objectives, self.cloud.fields, self.cloud.gains)
+        return pn.Column(
+            pn.FlexBox(self.free, margin=(0, 12)),
+            pn.FlexBox(self.chosen, margin=(0, 12)),
+            pn.FlexBox(
+                self.against,
+                *self.prices.values(),
+                self.deflection,
+                self.seed,
+                self.button,
+                self.progress,
+                self.stop,
+                margin=(0, 12),
+            ),
+            self.sentence,
+            self.answered_row,
+            pn.FlexBox(self.take, self.pin_name, self.pin, margin=(0, 12)),
+            beside(*pictures),
+            sizing_mode="stretch_width",
+            margin=0,
+        )
+
+
+CATALOGUED = {
+    "rail": "rail sections",
+    "pad": "pads of the catalogue",
+    "block": "blocks of the catalogue",
+    "boot": "boots of the catalogue",
+}
+"""What may be chosen from the bundled catalogue, by its kind of component."""
+
+
+def catalogued(kind, design):
+    """Return what a search may choose from the catalogue: plain values, as a question takes them.
+
+    Parameters
+    ----------
+    kind : str
+        A kind of component.
+    design : trackig_core.TrackDesign
+        The design; a single-stage one has no block or boot to choose.
+
+    Returns
+    -------
+    list of dict of str to float, or of str
+        Values by field of each component that has the same fields as the first; rails by their names.
+    """
+    if kind == "rail":
+        return list(tig.RAILS)
+    if kind in ("block", "boot") and not design.two_stage:
+        return []
+    components = tig.study.bundled_catalogue().of_kind(kind).values()
+    fitted = [(each.fitted_to(design), each.values) for each in components]
+    fields = [name for name in SCATTERED if name.startswith(f"{kind}_") and name in SLIDER_RANGES]
+    return [
+        {name: getattr(made, name) for name in fields}
+        for made, values in fitted
+        if all(isinstance(values.get(name), float) for name in fields)
+    ]
+
+
+def _varies(many, name):
+    column = many.columns[name]
+    return column.dtype == float and column.min() < column.max()
+
+
+def _axis(name):
+    """Return what an objective is called, and what turns it into the unit that is shown."""
+    if name in FIELDS:
+        return FIELDS[name].labelled, 1 / FIELDS[name].factor
+    return FIGURE_WORDS[name]
