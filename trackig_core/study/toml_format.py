@@ -433,7 +433,8 @@ def written(study: Study) -> str:
 def _written_view(view: View) -> Table:
     table = tomlkit.table()
     for each in fields(View):
-        if getattr(view, each.name) is not None:
+        # what is as the paper has it needs no line, and an earlier version reads on
+        if getattr(view, each.name) is not None and (each.name != "bands" or view.bands != each.default):
             table.add(each.name, getattr(view, each.name))
     return table
 
