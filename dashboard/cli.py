@@ -22,8 +22,10 @@ from pathlib import Path
 import trackig_core as tig
 from dashboard import cli_decide, formats
 from dashboard.server.command import ServeError, add_arguments, serve
+from dashboard.session.bands import WIDE, bands_text, gain_in
 from dashboard.session.pins import base_design, shown_designs
 from dashboard.session.results import SolutionSummary
+from trackig_core.bands import BANDS
 from trackig_core.levels import band_tables
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, reference_for
 from trackig_core.solver import FIDELITIES
@@ -175,6 +177,12 @@ def _add_solve(commands):
     command.add_argument("--reference", choices=REFERENCES, help="the study's, else line")
     command.add_argument("--summation", choices=SUMMATIONS, help="the study's, else energy")
     command.add_argument(
+        "--bands",
+        choices=BANDS,
+        help="bands to print and write, the study's, else the paper's; beyond 5 to 500 Hz they are of the "
+        "frequency-domain solution",
+    )
+    command.add_argument(
         "--csv", type=Path, metavar="FILE", help="write the bands [Hz, dB] as CSV, - for standard output"
     )
     command.add_argument(
@@ -282,13 +290,16 @@ def _solve(options):
         reference=options.reference or reference_for(changed, view.reference),
         summation=options.summation or view.summation,
     )
+    bands = options.bands or view.bands
+    gain = gain_in(bands, solution, solution.gain.reference, solution.gain.summation)
+    notes = (*solution.notes, *([bands_text(bands)] if bands in WIDE else []))
     statics = load.response(solution.design)
     if STANDARD_OUTPUT not in outputs:
-        sys.stdout.write(_solution_text(solution, statics))
+        sys.stdout.write(_solution_text(solution, gain, notes, statics))
     if options.csv is not None:
-        _write(options.csv, _solution_csv(solution))
+        _write(options.csv, _solution_csv(gain))
     if options.json is not None:
-        _write(options.json, _solution_json(solution, statics))
+        _write(options.json, _solution_json(solution, gain, notes, statics))
     return 0
 
 
@@ -469,48 +480,47 @@ def _statics_text(statics):
     return f"{words} ({reason})" if reason else words
 
 
-def _solution_text(solution, statics):
+def _solution_text(solution, gain, notes, statics):
     """Return bands and natural frequencies as lines for the console."""
-    gain, natural = solution.gain, solution.natural_frequencies
+    natural = solution.natural_frequencies
     lines = [
         f"fidelity {solution.fidelity}, reference {gain.reference}, summation {gain.summation}",
         "",
         "band, Hz   insertion gain, dB",
     ]
     lines += [
-        f"{label:>8}   {level:+18.1f}"
-        for label, level in zip(solution.band_labels, solution.insertion_gain, strict=True)
+        f"{label:>8}   {level:+18.1f}" for label, level in zip(gain.bands.labels, gain.levels, strict=True)
     ]
     lines += ["", f"loaded track    {formats.frequency_text(natural.loaded_track)}"]
     if natural.coupled_block is not None:
         lines.append(f"coupled block   {formats.frequency_text(natural.coupled_block)}")
     lines.append(_statics_text(statics))
-    lines += [f"note: {note}" for note in solution.notes]
+    lines += [f"note: {note}" for note in notes]
     return "\n".join(lines) + "\n"
 
 
-def _solution_csv(solution):
+def _solution_csv(gain):
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(["frequency_hz", "insertion_gain_db"])
-    writer.writerows(zip(solution.band_labels, map(float, solution.insertion_gain), strict=True))
+    writer.writerows(zip(gain.bands.labels, map(float, gain.levels), strict=True))
     return file.getvalue()
 
 
-def _solution_json(solution, statics):
+def _solution_json(solution, gain, notes, statics):
     found = {
         "trackig": tig.__version__,
         "fidelity": solution.fidelity,
-        "reference": solution.gain.reference,
-        "summation": solution.gain.summation,
+        "reference": gain.reference,
+        "summation": gain.summation,
         "design": dataclasses.asdict(solution.design),
-        "band_hz": [float(label) for label in solution.band_labels],
-        "band_centre_hz": solution.band_centres.tolist(),
-        "insertion_gain_db": solution.insertion_gain.tolist(),
+        "band_hz": [float(label) for label in gain.bands.labels],
+        "band_centre_hz": gain.bands.centres.tolist(),
+        "insertion_gain_db": gain.levels.tolist(),
         "natural_frequencies_hz": dataclasses.asdict(solution.natural_frequencies),
         "static_response": {
             name: getattr(statics, name) for name in STATICS if getattr(statics, name) is not None
         },
-        "notes": list(solution.notes),
+        "notes": list(notes),
     }
     return json.dumps(found, indent=2, ensure_ascii=False) + "\n"

@@ -558,3 +558,11 @@ REPORT_SHADE = "#f3f5f7"
 REPORT_GOOD = "#00704f"
 REPORT_BAD = "#b3261e"
 """A report is printed: dark ink on white paper, whatever the theme of the page."""
+
+MARKERS = {
+    "diamond": "M17 1L22 6L17 11L12 6Z",
+    "square": "M12.5 1.5H21.5V10.5H12.5Z",
+    "triangle": "M17 1L22.5 10.5H11.5Z",
+    "inverted_triangle": "M17 11L22.5 1.5H11.5Z",
+}
+"""Outline of the marker of each curve from elsewhere, in their order, by what Bokeh calls it."""

@@ -40,7 +40,7 @@ POOR_FIT = 0.1
 LARGE_STEP_ERROR = 0.5
 """Error of insertion gain in any band, made by the time step, above which the solution says so [dB]."""
 
-_WIDE_NOTES = (
+WIDE_NOTES = (
     "below 5 Hz a real wheel follows its suspension, and above 500 Hz the rail shears and three elements a "
     "bay are few: read the outer bands with care",
 )
@@ -159,7 +159,7 @@ def solve(
         notes=notes
         + _fit_notes(model)
         + _extrapolation_notes(model)
-        + (_WIDE_NOTES if wide else ())
+        + (WIDE_NOTES if wide else ())
         + _axle_notes(model.design),
         stiff_spectrum=stiff_spectrum,
     )

@@ -11,7 +11,7 @@ import trackig_core as tig
 from dashboard.compute.document import on_next_tick, one_message
 from dashboard.compute.latest import Latest
 from dashboard.compute.workers import workers
-from trackig_core.bands import BANDS, Bands, chosen_bands
+from trackig_core.bands import Bands, chosen_bands
 
 CAPACITY = 64
 """Designs kept; one holds some 10 kB."""
@@ -93,7 +93,6 @@ class Idealisations(param.Parameterized):
     """
 
     looked_at = param.Boolean(default=False, doc="Whether anybody looks at them.")
-    bands = param.Selector(default="one-third-octave", objects=list(BANDS), doc="Bands of the levels.")
     found = param.ClassSelector(class_=Idealised, default=None, allow_None=True, doc="What was found last.")
 
     def __init__(self, outcome, definition):
@@ -101,14 +100,14 @@ class Idealisations(param.Parameterized):
         self._outcome, self._definition = outcome, definition
         latest = Latest(self._find)
         outcome.param.watch(latest.ask, "summary")
-        definition.param.watch(latest.ask, ["reference", "summation"])
-        self.param.watch(latest.ask, ["looked_at", "bands"])
+        definition.param.watch(latest.ask, ["reference", "summation", "bands"])
+        self.param.watch(latest.ask, "looked_at")
 
     async def _find(self, document):
         summary, definition = self._outcome.summary, self._definition
         if not self.looked_at or summary is None:
             return
-        asked = (summary.design, self.bands, definition.reference, definition.summation)
+        asked = (summary.design, definition.bands, definition.reference, definition.summation)
         found = await asyncio.get_running_loop().run_in_executor(workers(), idealised, *asked)
         if found is not self.found:
             on_next_tick(document, partial(self._put, found))

@@ -25,6 +25,7 @@ from bokeh.plotting import figure
 
 import trackig_core as tig
 from dashboard import theme
+from trackig_core.bands import ONE_THIRD_OCTAVES
 
 LEVEL_STEP = 5.0
 """Grid of the ends of the level axis [dB]."""
@@ -99,18 +100,63 @@ LABEL_AS_FIT = f"""
 """
 
 
-def show_bands(plot, every=1):
-    """Give a figure's frequency axis all bands, edge to edge; label every band, or one in some.
+class BandAxis:
+    """The frequency axis of a figure over bands, edge to edge.
 
     Where labels would touch each other, as on a small screen, fewer bands are labelled.
+
+    Parameters
+    ----------
+    plot : bokeh.plotting.figure
+        The figure.
+    every : int
+        One band in so many is labelled.
+
+    Attributes
+    ----------
+    bands : trackig_core.bands.Bands
+        The bands that it has.
     """
-    plot.x_range = Range1d(*BAND_AXIS, bounds=BAND_AXIS)
-    ticker = FixedTicker(ticks=list(tig.BAND_CENTRES[::every]), minor_ticks=[])
-    plot.xaxis.ticker = ticker
-    everything = {"ticker": ticker, "centres": list(tig.BAND_CENTRES), "every": every}
-    plot.js_on_change("inner_width", CustomJS(args=everything, code=LABEL_AS_FIT))
-    plot.xaxis.major_label_overrides = dict(zip(tig.BAND_CENTRES, tig.BAND_LABELS, strict=True))
-    plot.xgrid.visible = False
+
+    def __init__(self, plot, every=1):
+        self.bands = ONE_THIRD_OCTAVES
+        self._axis, self._every = plot.xaxis, every
+        self._range = plot.x_range = Range1d(*BAND_AXIS, bounds=BAND_AXIS)
+        self._ticker = plot.xaxis.ticker = FixedTicker(ticks=self._ticks, minor_ticks=[])
+        everything = {"ticker": self._ticker, "centres": list(self.bands.centres), "every": every}
+        self._fit = CustomJS(args=everything, code=LABEL_AS_FIT)
+        plot.js_on_change("inner_width", self._fit)
+        self._name()
+        plot.xgrid.visible = False
+
+    @property
+    def _ticks(self):
+        return list(self.bands.centres[:: self._every])
+
+    @property
+    def ends(self):
+        """Edges of the outer bands [Hz], a tuple."""
+        return tuple(map(float, self.bands.edges[[0, -1]]))
+
+    def _name(self):
+        self._axis.major_label_overrides = dict(zip(self.bands.centres, self.bands.labels, strict=True))
+
+    def show(self, bands):
+        """Give the axis other bands (trackig_core.bands.Bands); the same again change nothing."""
+        if bands == self.bands:
+            return
+        self.bands = bands
+        low, high = self.ends
+        self._range.update(bounds=(low, high), start=low, end=high, reset_start=low, reset_end=high)
+        self._ticker.ticks = self._ticks
+        self._fit.args = {**self._fit.args, "centres": list(bands.centres)}
+        self._name()
+        self._axis.axis_label = f"{bands.words} band, Hz"
+
+
+def show_bands(plot, every=1):
+    """Give a figure's frequency axis the paper's bands (:class:`BandAxis`)."""
+    return BandAxis(plot, every)
 
 
 TICKS = [factor * 10.0**power for power in range(-2, 4) for factor in (1, 2, 5)]

@@ -40,13 +40,13 @@ from dashboard.figures.legends import (
     with_legend,
 )
 from dashboard.figures.swatches import (
-    MARKERS,
     excess_svg,
     extrapolated_svg,
     limit_svg,
     point_svg,
     swatch_svg,
 )
+from trackig_core.bands import ONE_THIRD_OCTAVES
 from trackig_core.levels.specification import LEVEL_TOLERANCE
 
 LEAST_LEVELS = (-28.0, 18.0)
@@ -85,11 +85,11 @@ class _Marker:
         plot.add_layout(self.line)
         plot.add_layout(self.label, "above")
 
-    def show(self, frequency):
+    def show(self, frequency, ends=BAND_AXIS):
         if frequency is None:
             self.line.visible, self.label.text = False, NO_LABEL
             return
-        low, high = BAND_AXIS
+        low, high = ends
         place = math.log(frequency / low) / math.log(high / low)
         text = f"{self._words} {formats.frequency_text(frequency)}"
         self.line.update(location=frequency, visible=0 <= place <= 1)
@@ -131,7 +131,9 @@ class InsertionGainFigure:
     """
 
     def __init__(self):
-        self.bands = ColumnDataSource(name="insertion_gain", data=_band_columns(NO_LEVELS, NO_LEVELS))
+        self.bands = ColumnDataSource(
+            name="insertion_gain", data=_band_columns(ONE_THIRD_OCTAVES, NO_LEVELS, NO_LEVELS)
+        )
         self.pins = ColumnDataSource(name="pins", data=pin_columns(()))
         self.limit = ColumnDataSource(name="limit", data=_limit_columns(NO_LEVELS, NO_LEVELS))
         self.extrapolated = ColumnDataSource(name="extrapolated", data={"left": [], "right": []})
@@ -158,7 +160,7 @@ class InsertionGainFigure:
 
     def _draw_bands(self):
         plot = self.model
-        show_bands(plot)
+        self._axis = show_bands(plot)
         plot.add_layout(zero_line())
         self._fill = plot.quad(
             left="left",
@@ -292,17 +294,20 @@ class InsertionGainFigure:
         production : numpy.ndarray (2, 21) or None
             Insertion gain below which 5 and 95 % of production lie [dB].
         """
-        levels, natural = current.levels, current.summary.solution.natural_frequencies
-        preset = NO_LEVELS if preset is None or alone else preset.levels
-        self.bands.data = _band_columns(levels, preset)
-        self._show_limit(limit, NO_LEVELS if alone else levels)
+        gain, natural = current.shown_gain, current.summary.solution.natural_frequencies
+        levels, is_new = gain.levels, gain.bands != self._axis.bands
+        self._axis.show(gain.bands)
+        preset = np.full(levels.size, np.nan) if preset is None or alone else preset.shown_gain.levels
+        self.bands.data = _band_columns(gain.bands, levels, preset)
+        # limits, measured curves and production stay in the bands that they are given in
+        self._show_limit(limit, NO_LEVELS if alone else current.levels)
         self._show_extrapolated(() if alone else current.summary.solution.extrapolated_bands)
         self._show_production(None if alone else production)
         for part in (self._fill, self._line, self._dots):
             part.visible = not alone
-        self._loaded_track.show(None if alone else natural.loaded_track)
-        self._coupled_block.show(None if alone else natural.coupled_block)
-        self._show_pinned(pinned)
+        self._loaded_track.show(None if alone else natural.loaded_track, self._axis.ends)
+        self._coupled_block.show(None if alone else natural.coupled_block, self._axis.ends)
+        self._show_pinned(pinned, is_new)
         self._show_measured(measured)
         self._name_on_hover(pinned, alone)
         self._list_what_is_drawn(pinned)
@@ -312,7 +317,8 @@ class InsertionGainFigure:
             self.limit.data["limit"],
             self.production.data["low"],
             self.production.data["high"],
-            *(each.levels for each in (*pinned, *measured)),
+            *(each.shown_gain.levels for each in pinned),
+            *(each.levels for each in measured),
             LEAST_LEVELS,
         ]
         every = np.concatenate(seen)
@@ -337,11 +343,11 @@ class InsertionGainFigure:
             else {"centre": tig.BAND_CENTRES, "low": production[0], "high": production[1]}
         )
 
-    def _show_pinned(self, pinned):
-        if are_the_same(pinned, self._drawn):
+    def _show_pinned(self, pinned, in_new_bands):
+        if are_the_same(pinned, self._drawn) and not in_new_bands:
             return
         self._drawn = pinned
-        self.pins.data = pin_columns([each.levels for each in pinned])
+        self.pins.data = pin_columns([each.shown_gain.levels for each in pinned], self._axis.bands)
         self._pinned.show(pinned)
 
     def _show_measured(self, measured):
@@ -406,7 +412,7 @@ HIGHER_THAN_ANY = 1e3
 MEASURED = "measured:"
 """What the legend says before the name of a curve from elsewhere, so that nobody takes it for a limit."""
 
-MEASURED_MARKERS = tuple(MARKERS)
+MEASURED_MARKERS = tuple(theme.MARKERS)
 """Markers of curves from elsewhere, in their order."""
 
 NO_LEVELS = np.full(tig.BAND_CENTRES.size, np.nan)
@@ -425,24 +431,28 @@ PIN_HOVER = """
 """
 
 
-def _band_columns(levels, preset):
+def _band_columns(bands, levels, preset):
     return {
-        "label": list(tig.BAND_LABELS),
-        "centre": tig.BAND_CENTRES,
-        "left": tig.BAND_EDGES[:-1],
-        "right": tig.BAND_EDGES[1:],
+        "label": list(bands.labels),
+        "centre": bands.centres,
+        "left": bands.edges[:-1],
+        "right": bands.edges[1:],
         "level": levels,
         "preset": preset,
-        "level_text": [formats.level_text(level) for level in levels],
-        "preset_text": [formats.level_text(level) if np.isfinite(level) else "–" for level in preset],
+        "level_text": list(map(_level_text, levels)),
+        "preset_text": list(map(_level_text, preset)),
     }
 
 
-def pin_columns(levels):
-    """Return the columns of a source that holds levels (21,) [dB] of each pin, NaN for those missing."""
-    missing = theme.MOST_PINNED - len(levels)
-    columns = {f"pin_{place}": each for place, each in enumerate([*levels, *[NO_LEVELS] * missing])}
-    return {"label": list(tig.BAND_LABELS), "centre": tig.BAND_CENTRES, **columns}
+def _level_text(level):
+    return formats.level_text(level) if np.isfinite(level) else "–"
+
+
+def pin_columns(levels, bands=ONE_THIRD_OCTAVES):
+    """Return the columns of a source that holds levels (bands,) [dB] of each pin, NaN for those missing."""
+    nothing = [np.full(bands.centres.size, np.nan)] * (theme.MOST_PINNED - len(levels))
+    columns = {f"pin_{place}": each for place, each in enumerate([*levels, *nothing])}
+    return {"label": list(bands.labels), "centre": bands.centres, **columns}
 
 
 def _measured_columns(measured):

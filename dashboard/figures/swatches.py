@@ -55,17 +55,8 @@ def extrapolated_svg():
 
 
 def point_svg(shape, colour):
-    """Return a point of a curve that is drawn as points: one of Bokeh's markers of :data:`MARKERS`."""
-    return _drawing(f'<path d="{MARKERS[shape]}" fill="none" stroke="{colour}" stroke-width="2"/>')
-
-
-MARKERS = {
-    "diamond": "M17 1L22 6L17 11L12 6Z",
-    "square": "M12.5 1.5H21.5V10.5H12.5Z",
-    "triangle": "M17 1L22.5 10.5H11.5Z",
-    "inverted_triangle": "M17 11L22.5 1.5H11.5Z",
-}
-"""Outline of each marker, by what Bokeh calls it."""
+    """Return a point of a curve that is drawn as points: one of the markers of the theme."""
+    return _drawing(f'<path d="{theme.MARKERS[shape]}" fill="none" stroke="{colour}" stroke-width="2"/>')
 
 
 def _drawing(parts):

@@ -19,7 +19,7 @@ SAME_TIME = 1e-9
 """Difference of two times that are the same [s]."""
 
 
-def gain_csv(results, heading):
+def gain_csv(results, heading, measured=()):
     """Return insertion gain per band as CSV.
 
     Parameters
@@ -28,18 +28,36 @@ def gain_csv(results, heading):
         Designs with a solution.
     heading : Heading
         What the file says of itself.
+    measured : iterable of trackig_core.levels.MeasuredGain
+        Curves from elsewhere; they are of one-third octaves, and left out beside octaves.
 
     Returns
     -------
     str
-        A column of bands, ``frequency_hz``, and a column per design, ``insertion_gain_db`` and its name, with
-        four decimals.
+        A column ``frequency_hz`` of the bands that are shown, a column per design, ``insertion_gain_db`` and
+        its name, and one per curve from elsewhere, ``measured_insertion_gain_db`` and its name, with four
+        decimals; empty where there is none.
     """
-    results = list(results)
-    header = ["frequency_hz", *(f"insertion_gain_db {each.name}" for each in results)]
-    columns = [tig.BAND_LABELS, *([f"{level:.4f}" for level in each.levels] for each in results)]
-    statics = (static_remark(each) for each in results if each.statics is not None)
-    return _written([*heading.lines, *statics], header, zip(*columns, strict=True))
+    results, measured = list(results), list(measured)
+    shown = [each.shown_gain for each in results]
+    bands, remarks = shown[0].bands, [static_remark(each) for each in results if each.statics is not None]
+    if bands.tenths != 1 and measured:
+        remarks.append("measured curves are of one-third octaves, and are left out beside octaves")
+        measured = []
+    header = [
+        "frequency_hz",
+        *(f"insertion_gain_db {each.name}" for each in results),
+        *(f"measured_insertion_gain_db {each.name}" for each in measured),
+    ]
+    elsewhere = [dict(zip(tig.BAND_LABELS, each.levels, strict=True)) for each in measured]
+    levels = [each.levels for each in shown]
+    levels += [[each.get(label, np.nan) for label in bands.labels] for each in elsewhere]
+    columns = [bands.labels, *(map(_decibels, each) for each in levels)]
+    return _written([*heading.lines, *remarks], header, zip(*columns, strict=True))
+
+
+def _decibels(level):
+    return "" if np.isnan(level) else f"{level:.4f}"
 
 
 def static_remark(result):

@@ -67,7 +67,9 @@ CHOICES = {
 }
 """What inputs that are no numbers may be in a link."""
 
-VIEW_CHOICES = {name: tuple(GainDefinition.param[name].objects) for name in ("summation", "reference")}
+VIEW_CHOICES = {
+    name: tuple(GainDefinition.param[name].objects) for name in ("summation", "reference", "bands")
+}
 """What choices of view may be in a link, by key; a page that offers others adds them."""
 
 SERVED = ("theme", "bokeh-", "autoload")

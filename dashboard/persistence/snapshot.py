@@ -9,6 +9,7 @@ import trackig_core as tig
 from dashboard.fields import INPUTS
 from dashboard.persistence import link, studies
 from dashboard.session.answers import Answers
+from dashboard.session.bands import PAPER
 from dashboard.session.steps import Steps
 
 
@@ -49,7 +50,7 @@ class SessionSnapshot(param.Parameterized):
     def watch(self, callback):
         """Call back whenever anything changes that is kept."""
         self.inputs.param.watch(callback, list(INPUTS))
-        self.definition.param.watch(callback, ["summation", "reference"])
+        self.definition.param.watch(callback, list(link.VIEW_CHOICES))
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
         self.assessment.param.watch(callback, ["specification", "source", "measured", "title"])
         self.answers.param.watch(callback, "kept")
@@ -57,7 +58,7 @@ class SessionSnapshot(param.Parameterized):
 
     @property
     def _view(self):
-        return {"summation": self.definition.summation, "reference": self.definition.reference}
+        return {name: getattr(self.definition, name) for name in link.VIEW_CHOICES}
 
     @property
     def _base(self):
@@ -67,7 +68,8 @@ class SessionSnapshot(param.Parameterized):
 
     def query(self):
         """Return the query string of a link to what is on the page; it holds no specification or source."""
-        view = {**self._view, "alone": str(int(self.pins.alone)), "tab": self.tab}
+        chosen = {name: each for name, each in self._view.items() if each != PAPER}
+        view = {**chosen, "alone": str(int(self.pins.alone)), "tab": self.tab}
         return link.encode(self.inputs.to_values(), view, self.pins.pinned, self._base)
 
     @property

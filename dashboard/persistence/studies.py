@@ -28,7 +28,7 @@ class Opened:
     base : int or None
         Number of the pin from which differences are taken, counted from 0, as Pins takes it.
     view : dict
-        ``summation`` and ``reference``.
+        ``summation``, ``reference`` and ``bands``.
     specification : trackig_core.Specification or None
         What the designs have to meet.
     source : trackig_core.SourceSpectrum or None
@@ -70,7 +70,7 @@ def to_study(
     values : mapping
         All inputs, by name of :data:`dashboard.fields.INPUTS`, as DesignInputs gives them [display units].
     view : mapping, optional
-        ``summation`` and ``reference``; what is missing is as in the paper.
+        ``summation``, ``reference`` and ``bands``; what is missing is as in the paper.
     pins : iterable of trackig_core.PinnedDesign
         Pinned designs.
     base : int, optional
@@ -139,7 +139,7 @@ def from_study(study):
         values=preset_values(preset) | values_of(study.design, preset) | _load(study.load),
         pins=_pins(study.pinned),
         base=study.view.base,
-        view={"summation": study.view.summation, "reference": study.view.reference},
+        view={name: getattr(study.view, name) for name in ("summation", "reference", "bands")},
         specification=study.specification,
         source=study.source,
         name=study.name,

@@ -9,14 +9,22 @@ import numpy as np
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.report import plots
-from dashboard.report.html_report import FREQUENCIES, INPUT_ROWS, TEMPLATES, hertz_text, is_told
+from dashboard.report.html_report import (
+    FREQUENCIES,
+    INPUT_ROWS,
+    TEMPLATES,
+    hertz_text,
+    is_told,
+    level_text,
+)
 from dashboard.session.special import input_text
+from trackig_core.bands import ONE_THIRD_OCTAVES
 
 PLOT_HEIGHT = 3.1
 """Height of the plot [inch]."""
 
 
-def data_sheet(result, heading, specification=None, source=None):
+def data_sheet(result, heading, specification=None, source=None, measured=()):
     """Return the data sheet of a design.
 
     Parameters
@@ -29,6 +37,8 @@ def data_sheet(result, heading, specification=None, source=None):
         What the design has to meet; its verdict is that of the result.
     source : trackig_core.SourceSpectrum, optional
         Where the result's level comes from.
+    measured : sequence of trackig_core.levels.MeasuredGain
+        Curves from elsewhere that are drawn with the design's.
 
     Returns
     -------
@@ -42,8 +52,9 @@ def data_sheet(result, heading, specification=None, source=None):
         heading=heading,
         result=result,
         specification=specification,
-        plot=plots.gain_svg([result], specification, PLOT_HEIGHT),
-        bands=_bands(result, specification),
+        plot=plots.gain_svg([result], specification, PLOT_HEIGHT, measured),
+        measured=measured,
+        bands=_bands(result, specification, measured),
         inputs=_inputs(result.design),
         frequencies=[
             (name, hertz_text(take(natural))) for name, take in FREQUENCIES if take(natural) is not None
@@ -59,26 +70,35 @@ def data_sheet(result, heading, specification=None, source=None):
     )
 
 
-def _bands(result, specification):
-    """Return rows of (name, cells) over the bands, a cell being (text, whether it exceeds the limit)."""
-    verdict = result.verdict
-    fails = np.zeros(tig.BAND_CENTRES.size, bool) if verdict is None else verdict.fails
+def _bands(result, specification, measured):
+    """Return rows of (name, cells) over the bands, a cell being (text, whether it exceeds the limit).
+
+    Rows of limit and margin are there only in the paper's bands, for which they are given, and rows of
+    measured levels only in one-third octaves.
+    """
+    verdict, gain = result.verdict, result.shown_gain
+    limited = specification is not None and gain.bands == ONE_THIRD_OCTAVES
+    fails = verdict.fails if limited else np.zeros(gain.levels.size, bool)
     rows = [
-        ("Band, Hz", [(label, False) for label in tig.BAND_LABELS]),
-        ("Gain", _cells(result.levels, fails)),
+        ("Band, Hz", [(label, False) for label in gain.bands.labels]),
+        ("Gain", _cells(gain.levels, fails)),
     ]
-    if specification is not None:
+    if limited:
         rows += [
             ("Limit", _cells(specification.levels, np.zeros_like(fails))),
             ("Margin", _cells(verdict.margins, fails)),
         ]
+    if gain.bands.tenths == 1:
+        for number, curve in enumerate(measured, start=1):
+            levels = dict(zip(tig.BAND_LABELS, curve.levels, strict=True))
+            cells = [(level_text(levels.get(label, np.nan)), False) for label in gain.bands.labels]
+            rows.append((f"Meas. {number}", cells))
     return rows
 
 
 def _cells(levels, fails):
     """Return cells for levels [dB], empty where there is none."""
-    texts = [formats.signed_text(level) if np.isfinite(level) else "" for level in levels]
-    return list(zip(texts, map(bool, fails), strict=True))
+    return list(zip(map(level_text, levels), map(bool, fails), strict=True))
 
 
 def _inputs(design):

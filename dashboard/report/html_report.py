@@ -17,6 +17,7 @@ from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, LOAD
 from dashboard.report import plots
 from dashboard.report.answer_pages import question_lines
 from dashboard.session import surroundings
+from dashboard.session.bands import bands_text, gain_in
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
 from dashboard.session.results import DesignResult
 from dashboard.session.special import input_text
@@ -86,12 +87,14 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
         left_out=[each.name for each in shown_designs(study) if each.design not in summaries],
         hidden=[each.name for each in study.pinned if not each.shown],
         kind=formats.definition_text(study.view.summation, study.view.reference),
+        band_words=bands_text(study.view.bands),
+        measured=study.measured if results[0].shown_gain.bands.tenths == 1 else (),
         yielding=[
             each.name
             for each in results
             if reference_for(each.design, study.view.reference) != study.view.reference
         ],
-        gain_plot=plots.gain_svg(results, study.specification),
+        gain_plot=plots.gain_svg(results, study.specification, measured=study.measured),
         difference_plot=plots.difference_svg(results, base) if len(results) > 1 else None,
         force_plot=plots.force_svg(results),
         beyond=_beyond(results),
@@ -101,7 +104,7 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
         wheels=formats.wheels_text(study.load),
         statics=_statics(results),
         bounds=_bounds(results),
-        bands=_bands(results, study.specification),
+        bands=_bands(results, study.specification, study.measured),
         margins=_margins(results, study.specification),
         sources=_sources(results, base, study.source),
         fidelities=formats.fidelities_text(each.summary.solution.fidelity for each in results),
@@ -154,7 +157,8 @@ def _result(study, record, summary):
     deflection = tig.analysis.limited_deflection(limits, record.design)
     verdict = None if limits is None else limits.check(gain.levels, deflection)
     level = None if study.source is None else study.source.with_track(gain.levels)
-    return DesignResult(record, summary, gain, verdict, level, study.load.response(record.design))
+    shown = gain_in(study.view.bands, summary.solution, reference, study.view.summation)
+    return DesignResult(record, summary, gain, verdict, level, study.load.response(record.design), shown)
 
 
 def _inputs(results, base):
@@ -234,20 +238,36 @@ def hertz_text(value):
     return " and ".join(formats.frequency_text(each).removesuffix(" Hz") for each in values)
 
 
-def _bands(results, specification):
-    """Return rows of (label, limit, cells), a cell being (text, whether it exceeds the limit)."""
-    limits = np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels
-    return [
-        (
-            label,
-            formats.signed_text(limits[band]) if np.isfinite(limits[band]) else "",
-            [
-                (formats.signed_text(each.levels[band]), bool(each.verdict and each.verdict.fails[band]))
-                for each in results
-            ],
-        )
-        for band, label in enumerate(tig.BAND_LABELS)
-    ]
+def _bands(results, specification, measured=()):
+    """Return rows of (label, limit, cells, measured cells) over the bands that are shown.
+
+    A cell is (text, whether it exceeds the limit). Limits and measured levels are of one-third octaves, and
+    stand in no row of an octave.
+    """
+    bands = results[0].shown_gain.bands
+    place = dict(zip(tig.BAND_LABELS, range(len(tig.BAND_LABELS)), strict=True)) if bands.tenths == 1 else {}
+
+    def cell(levels, band):
+        return level_text(np.nan if band is None or levels is None else levels[band])
+
+    limits = None if specification is None else specification.levels
+    rows = []
+    for number, label in enumerate(bands.labels):
+        band = place.get(label)
+        cells = [
+            (
+                level_text(each.shown_gain.levels[number]),
+                band is not None and bool(each.verdict and each.verdict.fails[band]),
+            )
+            for each in results
+        ]
+        rows.append((label, cell(limits, band), cells, [cell(each.levels, band) for each in measured]))
+    return rows
+
+
+def level_text(level):
+    """Return a level [dB] for a column of a table, empty where there is none."""
+    return formats.signed_text(level) if np.isfinite(level) else ""
 
 
 def _margins(results, specification):

@@ -37,7 +37,7 @@ TITLES = {
 """What each kind of picture is called."""
 
 
-def picture(kind, form, results, heading, *, base=None, specification=None):
+def picture(kind, form, results, heading, *, base=None, specification=None, measured=()):
     """Return a plot as a file.
 
     Parameters
@@ -54,6 +54,8 @@ def picture(kind, form, results, heading, *, base=None, specification=None):
         The design from which differences are taken.
     specification : trackig_core.Specification, optional
         The limit that is drawn with insertion gain.
+    measured : sequence of trackig_core.levels.MeasuredGain
+        Curves from elsewhere that are drawn with insertion gain.
 
     Returns
     -------
@@ -64,7 +66,7 @@ def picture(kind, form, results, heading, *, base=None, specification=None):
         figure = Figure(layout="constrained", facecolor=theme.LIGHT_PAPER)
         FigureCanvasAgg(figure)
         axes = figure.add_subplot()
-        handles, names = _draw(kind, axes, results, heading, base, specification)
+        handles, names = _draw(kind, axes, results, heading, base, specification, measured)
         _write_words(figure, TITLES[kind].format(base=_name(base, heading) if base else ""), heading)
         _add_legend(figure, handles, names)
         file = io.BytesIO()
@@ -73,7 +75,7 @@ def picture(kind, form, results, heading, *, base=None, specification=None):
         return file.getvalue()
 
 
-def _draw(kind, axes, results, heading, base, specification):
+def _draw(kind, axes, results, heading, base, specification, measured):
     """Draw the curves, and return what the legend shows: handles and names."""
     names = [_name(each, heading) for each in results]
     if kind == "force":
@@ -82,7 +84,10 @@ def _draw(kind, axes, results, heading, base, specification):
         return handles, [name + words for name, words in zip(names, beyond, strict=True)]
     if kind == "difference":
         return plots.draw_difference(axes, results, base), names
-    handles = plots.draw_gain(axes, results, specification)
+    handles = plots.draw_gain(axes, results, specification, measured)
+    for curve, marker in zip(measured, plots.MEASURED_MARKERS, strict=False):
+        handles.append(Line2D([], [], marker=marker, **plots.POINTS))
+        names.append(f"measured: {curve.name}")
     if specification is not None:
         handles.append(Patch(facecolor="none", edgecolor=theme.SPECIFICATION, linewidth=2))
         names.append(f"greatest allowed: {specification.name}")
@@ -115,7 +120,7 @@ def _write_words(figure, title, heading):
         parse_math=False,
     )
     figure.axes[0].set_title(
-        f"Insertion gain: {heading.definition}\n"
+        f"Insertion gain: {heading.definition}{heading.in_bands}\n"
         f"Solution: {heading.fidelity} · {heading.day} · trackig {heading.version}",
         loc="left",
         fontsize=8.5,

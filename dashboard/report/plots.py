@@ -15,6 +15,7 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 import trackig_core as tig
 from dashboard import formats, theme
+from trackig_core.bands import ONE_THIRD_OCTAVES
 
 PLOT_WIDTH = 7.3
 """Width of a plot [inch]: that of the text on A4."""
@@ -31,15 +32,21 @@ FORCE_ROOM = 1.1
 LEAST_DIFFERENCES = 3.0
 """What the axis of differences reaches at least, up and down [dB]."""
 
+MEASURED_MARKERS = ("D", "s", "^", "v")
+"""Markers of measured curves, in their order: what Matplotlib calls those of the page."""
+
+POINTS = {"linestyle": "none", "markersize": 6, "markerfacecolor": "none", "color": theme.THEORY, "zorder": 4}
+"""How measured levels are drawn."""
+
 DRAWING = threading.Lock()
 """Matplotlib is not made for several threads at once."""
 
 
-def gain_svg(results, specification, height=3.5):
-    """Return insertion gain of results over the bands as a drawing (SVG), of a height [inch]."""
+def gain_svg(results, specification, height=3.5, measured=()):
+    """Return insertion gain as :func:`draw_gain` draws it as a drawing (SVG), of a height [inch]."""
     with DRAWING:
         figure, axes = blank(height)
-        draw_gain(axes, results, specification)
+        draw_gain(axes, results, specification, measured)
         return svg(figure, "gain")
 
 
@@ -86,14 +93,14 @@ def _dress(axes, x, y):
     axes.axhline(0, color=theme.REPORT_FAINT, linewidth=1)
 
 
-def dress_bands(axes, label):
-    """Put the bands along the axis."""
+def dress_bands(axes, label, bands=ONE_THIRD_OCTAVES):
+    """Put bands (trackig_core.bands.Bands) along the axis."""
     axes.set_xscale("log")
-    axes.set_xlim(tig.BAND_EDGES[0], tig.BAND_EDGES[-1])
-    axes.xaxis.set_major_locator(FixedLocator(tig.BAND_CENTRES))
-    axes.xaxis.set_major_formatter(FixedFormatter(tig.BAND_LABELS))
+    axes.set_xlim(bands.edges[0], bands.edges[-1])
+    axes.xaxis.set_major_locator(FixedLocator(bands.centres))
+    axes.xaxis.set_major_formatter(FixedFormatter(bands.labels))
     axes.xaxis.set_minor_locator(NullLocator())
-    _dress(axes, "One-third-octave band, Hz", label)
+    _dress(axes, f"{bands.words} band, Hz", label)
 
 
 def _curve(axes, x, y, result, **kind):
@@ -102,8 +109,10 @@ def _curve(axes, x, y, result, **kind):
     return line
 
 
-def draw_gain(axes, results, specification):
-    """Draw insertion gain, the limit, and where it is exceeded.
+def draw_gain(axes, results, specification, measured=()):
+    """Draw insertion gain in the bands that are shown, the limit, where it is exceeded, and measured points.
+
+    Limits and measured levels are of one-third octaves, whichever bands are shown.
 
     Parameters
     ----------
@@ -113,18 +122,24 @@ def draw_gain(axes, results, specification):
         Designs with a solution, front to back.
     specification : trackig_core.Specification or None
         The limit.
+    measured : sequence of trackig_core.levels.MeasuredGain
+        Curves from elsewhere, drawn as points.
 
     Returns
     -------
     list of matplotlib.lines.Line2D
         The curve of each result, in their order.
     """
-    dress_bands(axes, "Insertion gain, dB")
+    bands = results[0].shown_gain.bands
+    dress_bands(axes, "Insertion gain, dB", bands)
     lines = [
-        _curve(axes, tig.BAND_CENTRES, each.levels, each, marker="o", markersize=3.5)
+        _curve(axes, bands.centres, each.shown_gain.levels, each, marker="o", markersize=3.5)
         for each in reversed(results)
     ]
-    seen = np.concatenate([each.levels for each in results])
+    for curve, marker in zip(measured, MEASURED_MARKERS, strict=False):
+        axes.plot(tig.BAND_CENTRES, curve.levels, marker=marker, **POINTS)
+    seen = np.concatenate([each.levels for each in (*(each.shown_gain for each in results), *measured)])
+    seen = seen[np.isfinite(seen)] if np.isfinite(seen).any() else np.zeros(1)
     if specification is not None:
         limits = specification.levels
         seen = np.concatenate([seen, limits[np.isfinite(limits)]])
@@ -143,7 +158,8 @@ def _draw_limits(axes, limits, top):
 
 
 def _mark_failing(axes, results):
-    for each in results:
+    # in other bands there are no points of one-third octaves to be crossed
+    for each in results if results[0].shown_gain.bands == ONE_THIRD_OCTAVES else ():
         fails = each.verdict.fails
         axes.plot(
             tig.BAND_CENTRES[fails],
@@ -163,13 +179,14 @@ def _mark_failing(axes, results):
 
 def draw_difference(axes, results, base):
     """Draw insertion gain less that of a base, as :func:`draw_gain` does; return the curves."""
-    dress_bands(axes, "Difference, dB")
-    differences = [each.levels - base.levels for each in results]
+    bands = base.shown_gain.bands
+    dress_bands(axes, "Difference, dB", bands)
+    differences = [each.shown_gain.levels - base.shown_gain.levels for each in results]
     lines = [
-        _curve(axes, tig.BAND_CENTRES, difference, each, marker="o", markersize=3)
+        _curve(axes, bands.centres, difference, each, marker="o", markersize=3)
         for each, difference in zip(reversed(results), reversed(differences), strict=True)
     ]
-    reach = max(LEAST_DIFFERENCES, np.abs(differences).max()) + LEVEL_ROOM / 2
+    reach = np.nanmax([LEAST_DIFFERENCES, *np.abs(differences).ravel()]) + LEVEL_ROOM / 2
     axes.set_ylim(-reach, reach)
     return lines[::-1]
 

@@ -56,7 +56,7 @@ class Assessment(param.Parameterized):
         self._inputs, self._outcome, self._definition = inputs, outcome, definition
         self._pins, self._pinned = pins, pinned
         outcome.param.watch(self._assess, ["summary", "preset_summary"])
-        definition.param.watch(self._assess, ["summation", "reference"])
+        definition.param.watch(self._assess, ["summation", "reference", "bands"])
         pins.param.watch(self._assess, ["pinned", "base"])
         pinned.param.watch(self._assess, "summaries")
         self.param.watch(self._assess, ["specification", "source"])
@@ -81,7 +81,8 @@ class Assessment(param.Parameterized):
 
     def _assess(self, *_):
         definition, load = self._definition, self._inputs.to_load()
-        criteria = (definition.reference, definition.summation, self.specification, self.source, load)
+        chosen = (definition.reference, definition.summation, definition.bands)
+        criteria = (*chosen, self.specification, self.source, load)
         known = {each.key: each for each in self.results} if criteria == self._criteria else {}
         known_preset = self.preset if criteria == self._criteria else None
         self._criteria, self._load = criteria, load
@@ -119,6 +120,7 @@ class Assessment(param.Parameterized):
             pinned=record,
             summary=summary,
             gain=gain,
+            gain_shown=self._definition.gain_shown(summary.solution),
             verdict=(
                 None if self.specification is None else self.specification.check(gain.levels, deflection)
             ),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import trackig_core as tig
 from dashboard import formats
 from dashboard.fields import PRESET_LABELS
+from dashboard.session.bands import bands_text
 from dashboard.session.pins import THIS_DESIGN
 from trackig_core.levels.insertion_gain import reference_for
 
@@ -28,6 +29,8 @@ class Heading:
         The day.
     version : str
         Version of the software.
+    bands : str
+        Which bands are shown, and what they cost in validity; empty of the paper's.
     """
 
     study: str
@@ -36,6 +39,7 @@ class Heading:
     fidelity: str
     date: datetime.date
     version: str
+    bands: str = ""
 
     @classmethod
     def of(cls, study, results, date):
@@ -57,6 +61,7 @@ class Heading:
             definition=formats.definition_text(
                 study.view.summation, reference_for(first.design, study.view.reference)
             ),
+            bands=bands_text(study.view.bands),
             fidelity=formats.fidelities_text(each.summary.solution.fidelity for each in results),
             date=date,
             version=tig.__version__,
@@ -68,9 +73,15 @@ class Heading:
         return f"{self.date.day} {self.date:%B %Y}"
 
     @property
+    def in_bands(self):
+        """The bands that are shown, to be put after the definition; empty of the paper's."""
+        return f"; {self.bands}" if self.bands else ""
+
+    @property
     def track_lines(self):
         """What of it concerns a track without its wheel, a line of text each."""
-        return tuple(each for each in self.lines if not each.startswith(("insertion gain:", "solution:")))
+        of_wheel = ("insertion gain:", "bands:", "solution:")
+        return tuple(each for each in self.lines if not each.startswith(of_wheel))
 
     @property
     def lines(self):
@@ -79,6 +90,7 @@ class Heading:
             f"study: {self.study}",
             f"design: {self.design}",
             f"insertion gain: {self.definition}",
+            *([f"bands: {self.bands}"] if self.bands else []),
             f"solution: {self.fidelity}",
             f"date: {self.date.isoformat()}",
             f"trackig {self.version}",

@@ -33,6 +33,8 @@ from dashboard.fields import (
 )
 from dashboard.formats import quantity_text
 from dashboard.session import surroundings
+from dashboard.session.bands import CHOICES as BAND_CHOICES
+from dashboard.session.bands import PAPER, gain_in
 from dashboard.session.special import (
     OWN_RAIL,
     is_curve,
@@ -493,10 +495,15 @@ class GainDefinition(param.Parameterized):
         },
         label="Against",
     )
+    bands = param.Selector(default=PAPER, objects=BAND_CHOICES, label="Bands shown")
 
     def gain(self, solution):
         """Return the insertion gain of a solution (trackig_core.InsertionGain), computed once."""
         return solution.gain_for(self.reference_of(solution.design), self.summation)
+
+    def gain_shown(self, solution):
+        """Return the insertion gain of a solution in the bands that are shown (InsertionGain)."""
+        return gain_in(self.bands, solution, self.reference_of(solution.design), self.summation)
 
     def reference_of(self, design):
         """Return the reference of a design (str): the chosen one, or the one that its ground leaves."""

@@ -68,13 +68,15 @@ class DesignResult:
     summary : SolutionSummary or None
         Its last good solution; None while there is none.
     gain : trackig_core.InsertionGain or None
-        Its insertion gain by the definition in force; None while there is no solution.
+        Its insertion gain by the definition in force, in the paper's bands; None while there is no solution.
     verdict : trackig_core.Verdict or None
         How it fares against the specification, if there is one.
     level : trackig_core.TrackLevel or None
         What the source becomes with it, if there is one.
     statics : trackig_core.StaticResponse or None
         How it carries the standing wheels; None while there is no solution.
+    gain_shown : trackig_core.InsertionGain or None
+        The same in the bands that are shown and written; None: in the paper's.
     """
 
     pinned: tig.PinnedDesign
@@ -83,6 +85,7 @@ class DesignResult:
     verdict: tig.Verdict | None = None
     level: tig.TrackLevel | None = None
     statics: tig.StaticResponse | None = None
+    gain_shown: tig.InsertionGain | None = None
 
     @property
     def key(self):
@@ -116,8 +119,13 @@ class DesignResult:
 
     @property
     def levels(self):
-        """Insertion gain (21,) [dB], or None while there is no solution."""
+        """Insertion gain in the paper's bands (21,) [dB], or None while there is no solution."""
         return None if self.gain is None else self.gain.levels
+
+    @property
+    def shown_gain(self):
+        """Insertion gain in the bands that are shown, or None while there is no solution."""
+        return self.gain_shown or self.gain
 
 
 @dataclass(frozen=True, eq=False)

@@ -36,7 +36,7 @@ class Steps(param.Parameterized):
         super().__init__()
         self._inputs, self._clock = inputs, clock
         self._kept = (
-            (definition, ("reference", "summation")),
+            (definition, ("reference", "summation", "bands")),
             (pins, ("pinned", "base", "alone")),
             (assessment, ("specification", "source", "measured", "title")),
         )

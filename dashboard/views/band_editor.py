@@ -166,7 +166,8 @@ class BandEditor(Viewer):
         points = {**dict(self.table.points if self.table is not None else ()), **levels}
         points = [(frequency, level) for frequency, level in points.items() if level is not None]
         name = self.table.name if self.table is not None else self._kind.name
-        self._keep(self._with_bands(points, name) if points else None)
+        says_more = self.table is not None and self.table.may_be_empty
+        self._keep(self._with_bands(points, name) if points or says_more else None)
 
     def _with_bands(self, points, name):
         """Return the table with other bands; what else it says stays, such as a limit of deflection."""
@@ -188,7 +189,7 @@ class BandEditor(Viewer):
     def _show(self, *_):
         levels = dict(self.table.points) if self.table is not None else {}
         self.grid.values = [f"{levels[each]:.10g}" if each in levels else "" for each in NOMINAL]
-        self.clear.disabled = self.save.disabled = not levels
+        self.clear.disabled, self.save.disabled = self.table is None, not levels
 
     def _save_template(self, *_):
         self._exchange.save(file_name(self._name, "template.csv"), self._kind.template_csv())

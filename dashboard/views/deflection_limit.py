@@ -22,7 +22,7 @@ BOXES = {
 }
 """Label, unit that is shown, and what one of it is in SI, of each number of the limit."""
 
-NO_BANDS = "A limit of deflection belongs to a specification: give a limit of insertion gain first."
+NOT_LIMITED = "The rail's deflection is not limited."
 
 
 class DeflectionLimit(Viewer):
@@ -56,12 +56,12 @@ class DeflectionLimit(Viewer):
     def _take(self, name, text):
         """Take a number that was typed; an empty box takes the limit away, or puts the load back."""
         specification = self._assessment.specification
-        if self._showing or specification is None:
+        if self._showing or (specification is None and not text.strip()):
             return
         _, unit, factor = BOXES[name]
         try:
             value = factor * read_number(text, unit) if text.strip() else EMPTY[name]
-            self._assessment.specification = dataclasses.replace(specification, **{name: value})
+            self._assessment.specification = _with(specification, name, value)
         except (NumberError, tig.SpecificationError) as error:
             self.boxes[name].error_state = True
             self._tell(f"Not taken: {error}.")
@@ -80,7 +80,6 @@ class DeflectionLimit(Viewer):
                 value = None if limit is None else getattr(specification, name)
                 text = "" if value is None else formats.quantity_text(value / factor)
                 self.boxes[name].param.update(value=text, error_state=False)
-            self.boxes["rail_deflection_limit"].disabled = specification is None
             self.boxes["wheel_load"].disabled = limit is None
         finally:
             self._showing = False
@@ -102,6 +101,15 @@ class DeflectionLimit(Viewer):
         )
 
 
+def _with(specification, name, value):
+    """Return a specification with another number; without limit of any band or of the deflection, None."""
+    if specification is None:
+        return tig.Specification((), **{name: value})
+    if not specification.points and name == "rail_deflection_limit" and value is None:
+        return None
+    return dataclasses.replace(specification, **{name: value})
+
+
 EMPTY = {"rail_deflection_limit": None, "wheel_load": DEFAULT_WHEEL_LOAD}
 """What an empty box stands for."""
 
@@ -116,10 +124,8 @@ def deflections_html(results, specification):
     specification : trackig_core.Specification or None
         What limits the deflection, if anything does.
     """
-    if specification is None:
-        return f"<p>{NO_BANDS}</p>"
-    if specification.rail_deflection_limit is None:
-        return "<p>The rail's deflection is not limited.</p>"
+    if specification is None or specification.rail_deflection_limit is None:
+        return f"<p>{NOT_LIMITED}</p>"
     limit = formats.millimetre_text(specification.rail_deflection_limit)
     rows = "".join(_row(each, specification, limit) for each in results if each.verdict is not None)
     heads = "".join(f'<th scope="col">{words}</th>' for words in ("Design", "Deflection", "Limit", "Margin"))

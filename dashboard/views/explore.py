@@ -12,6 +12,7 @@ from dashboard import theme
 from dashboard.compute.document import NextTick
 from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
+from dashboard.session.bands import bands_text
 from dashboard.session.production import Production
 from dashboard.views.components import bokeh_pane, caption, gain_axis, panel
 from dashboard.views.frequencies import Frequencies
@@ -63,11 +64,12 @@ class Explore(Tab):
             margin=(0, 12, 0, 0),
         )
         self.reference_words = pmui.Typography("", variant="body2", visible=False, margin=(0, 14, 4, 14))
+        self.bands_words = pmui.Typography("", variant="body2", visible=False, margin=(0, 14, 4, 14))
         self.choices = [
             pn.widgets.Select.from_param(
                 parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[theme.SELECT_CSS]
             )
-            for parameter in (definition.param.summation, definition.param.reference)
+            for parameter in (definition.param.summation, definition.param.reference, definition.param.bands)
         ]
         outcome.param.watch(self._dim, ["problem", "progress", "summary"])
         show = NextTick(self._show)
@@ -82,6 +84,8 @@ class Explore(Tab):
         results = self._assessment.results
         self.insertion_gain.name_axis(gain_axis(self._definition, self._assessment.current.design))
         self._say_reference()
+        words = bands_text(self._definition.bands)
+        self.bands_words.param.update(object=f"{words[:1].upper()}{words[1:]}.", visible=bool(words))
         if self._assessment.current.summary is None:
             return
         if results is not self._drawn:
@@ -166,6 +170,7 @@ class Explore(Tab):
                 margin=0,
             ),
             self.reference_words,
+            self.bands_words,
             self.verdict,
         ]
         yield

@@ -14,14 +14,6 @@ from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
 CHOICES = {words[0].upper() + words[1:]: name for name, (_, _, words) in LOOKS.items()}
 """What may be drawn beside the solution, by its words."""
 
-BAND_CHOICES = {
-    "One-third octaves, 5 to 500 Hz (paper)": "one-third-octave",
-    "Octaves, 8 to 250 Hz": "octave",
-    "One-third octaves, 1 Hz to 1 kHz": "wide one-third-octave",
-    "Octaves, 1 Hz to 1 kHz": "wide octave",
-}
-"""Bands of the core, by what they are called on the page."""
-
 
 class IdealisationsView(Viewer):
     """A figure, what is drawn in it, and what each assumption changes in words.
@@ -48,26 +40,20 @@ class IdealisationsView(Viewer):
             margin=(0, 12, 4, 12),
             stylesheets=[theme.CHECKS_CSS],
         )
-        self.bands = pn.widgets.Select(
-            label="Bands",
-            options=BAND_CHOICES,
-            value="one-third-octave",
+        self.bands = pn.widgets.Select.from_param(
+            definition.param.bands,
             width=320,
             margin=(0, 12, 0, 12),
             stylesheets=[theme.SELECT_CSS],
         )
         self.words = pmui.Typography("", variant="body1", margin=(2, 14, 10, 14))
         show = NextTick(self._show)
-        self.bands.param.watch(self._choose_bands, "value")
         self.chosen.param.watch(show, "value")
         self.idealisations.param.watch(show, "found")
 
     def look(self, in_sight):
         """Note whether anybody looks: only then is anything computed."""
         self.idealisations.looked_at = in_sight
-
-    def _choose_bands(self, event):
-        self.idealisations.bands = event.new
 
     def _show(self):
         found = self.idealisations.found

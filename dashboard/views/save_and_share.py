@@ -131,7 +131,7 @@ class SaveAndShare(Tab):
             notify("success", "The study is open.")
 
     def _save_gain(self, *_):
-        self._save_curves(gain_csv, self._drawn, "gain.csv")
+        self._save_curves(partial(gain_csv, measured=self._assessment.measured), self._drawn, "gain.csv")
 
     def _save_force(self, *_):
         self._save_curves(
@@ -176,6 +176,7 @@ class SaveAndShare(Tab):
             heading,
             assessment.specification,
             assessment.source,
+            assessment.measured,
         )
 
     async def _save_picture(self, kind, form, *_):
@@ -197,6 +198,7 @@ class SaveAndShare(Tab):
             heading,
             assessment.base,
             assessment.specification,
+            assessment.measured,
         )
 
     async def _save_drawn(self, pressed, name, media, write, *arguments):
@@ -248,18 +250,18 @@ def write_report(study, summaries, pages, with_left_out=False):
     return html_report(study, summaries, date=today, version=tig.__version__, pages=pages, left_out=found)
 
 
-def write_sheet(result, heading, specification, source):
+def write_sheet(result, heading, specification, source, measured):
     """Return the data sheet of a design (str)."""
     from dashboard.report.data_sheet import data_sheet
 
-    return data_sheet(result, heading, specification, source)
+    return data_sheet(result, heading, specification, source, measured)
 
 
-def draw_picture(kind, form, results, heading, base, specification):
+def draw_picture(kind, form, results, heading, base, specification, measured):
     """Return a picture as a file (bytes)."""
     from dashboard.report.pictures import picture
 
-    return picture(kind, form, results, heading, base=base, specification=specification)
+    return picture(kind, form, results, heading, base=base, specification=specification, measured=measured)
 
 
 def copy_button():

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import AnyArray, BoolArray, IntArray, RealArray
-from trackig_core.decide.requirements import Requirements
+from trackig_core.decide.requirements import DEFLECTION, Requirements
 from trackig_core.decide.solving import How, solve_designs
 from trackig_core.decide.words import amount, plain
 from trackig_core.levels.specification import Specification
@@ -80,7 +80,8 @@ class FeasibleRanges(Mapping[str, Intervals]):
     margin : float [dB]
         Governing margin of the design itself; negative where insertion gain fails.
     governed_by : str
-        Band, by its nominal mid-band frequency, with that margin.
+        Band, by its nominal mid-band frequency, with that margin; ``"deflection"`` where no band has a limit:
+        the margin is then 20 lg of limit over deflection.
     deflection, deflection_limit : float [m], float or None [m]
         Static rail deflection of the design itself, and the greatest allowed.
     rails : dict of str to bool
@@ -156,13 +157,14 @@ class FeasibleRanges(Mapping[str, Intervals]):
     @property
     def _because(self) -> str:
         """Margin, and deflection if it is limited, in words."""
-        words = f"{abs(self.margin):.1f} dB {'within' if self.margin >= 0 else 'beyond'} the limit "
-        words += f"at {self.governed_by} Hz"
-        if self.deflection_limit is None:
-            return words
-        return (
-            f"{words}, its rail sinking {1e3 * self.deflection:.2f} of {1e3 * self.deflection_limit:.2f} mm"
-        )
+        words = []
+        if self.governed_by != DEFLECTION:
+            side = "within" if self.margin >= 0 else "beyond"
+            words.append(f"{abs(self.margin):.1f} dB {side} the limit at {self.governed_by} Hz")
+        if self.deflection_limit is not None:
+            sinks = f"{1e3 * self.deflection:.2f} of {1e3 * self.deflection_limit:.2f} mm"
+            words.append(f"its rail sinking {sinks}")
+        return ", ".join(words)
 
 
 def feasible_ranges(
@@ -221,6 +223,7 @@ def feasible_ranges(
     around = solve_designs(design, {"rail": np.array(rails, dtype=object)}, how)
     found = complying_stretches(evaluate, len(names)) if names else []
     complies, margins = required.complies(around), required.margins(around)[0]
+    margin = float(required.governing_margin(around)[0])
     return FeasibleRanges(
         design=design,
         intervals={
@@ -229,8 +232,8 @@ def feasible_ranges(
         },
         ranges=searched,
         complies=bool(complies[0]),
-        margin=float(margins.min()),
-        governed_by=required.names[int(margins.argmin())],
+        margin=margin,
+        governed_by=required.names[int(margins.argmin())] if required.names else DEFLECTION,
         deflection=float(required.deflection(around)[0]),
         deflection_limit=required.deflection_limit,
         rails={rail.name: bool(each) for rail, each in zip(rails[1:], complies[1:], strict=True)},

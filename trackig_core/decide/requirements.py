@@ -111,8 +111,11 @@ class Requirements:
         return margins
 
     def governing_margin(self, many: BatchSolution) -> RealArray:
-        """Return the least margin over the bands that have a limit (...) [dB]."""
-        return self.margins(many).min(axis=-1)
+        """Return the least margin over the bands that have a limit (...) [dB].
+
+        Where only the deflection has one, it is the slack of that: 20 lg of limit over deflection.
+        """
+        return (self.margins(many) if self.names else self.slacks(many)).min(axis=-1)
 
     @property
     def deflection_limit(self) -> float | None:

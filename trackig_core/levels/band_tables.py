@@ -158,7 +158,14 @@ class BandTable:
         error = self.quantity.error
         if not is_name(self.name, LONGEST_TITLE):
             raise error(f"name = {brief(self.name)}: give {allowed(LONGEST_TITLE)}")
-        object.__setattr__(self, "points", _checked(_rows(self.points, self.quantity), self.quantity, "row"))
+        rows = _rows(self.points, self.quantity)
+        points = () if not rows and self.may_be_empty else _checked(rows, self.quantity, "row")
+        object.__setattr__(self, "points", points)
+
+    @property
+    def may_be_empty(self) -> bool:
+        """Whether the table says something without any level."""
+        return False
 
     @classmethod
     def from_csv(cls, data: str | bytes, name: str | None = None) -> Self:

@@ -45,6 +45,7 @@ class Specification(BandTable):
         Name of the specification.
     rail_deflection_limit : float or None
         Greatest static deflection allowed of the rail under the wheel, over a support [m]; None: no limit.
+        Where there is one, no band needs a limit.
     wheel_load : float
         Load of the wheel under which that limit holds [N]; the default where there is no limit.
 
@@ -81,10 +82,15 @@ class Specification(BandTable):
         object.__setattr__(self, "wheel_load", load)
 
     @property
+    def may_be_empty(self) -> bool:
+        """Whether the rail's deflection is limited, so that no band needs to be."""
+        return self.rail_deflection_limit is not None
+
+    @property
     def is_probably_loss(self) -> bool:
         """Whether no limit is below zero and one is above, as if they were insertion *losses*."""
         limits = [limit for _, limit in self.points]
-        return min(limits) >= 0 and max(limits) > 0
+        return bool(limits) and min(limits) >= 0 and max(limits) > 0
 
     def turned(self) -> "Specification":
         """Return the same specification with the sign of every level turned (Specification)."""
@@ -159,13 +165,13 @@ class Verdict:
 
     @property
     def worst_margin(self) -> float:
-        """Least margin [dB]."""
-        return float(np.nanmin(self.margins))
+        """Least margin [dB]; infinite where no band has a limit."""
+        return float(np.min(self.margins, where=np.isfinite(self.margins), initial=np.inf))
 
     @property
     def worst_band(self) -> str:
-        """Nominal mid-band frequency, as text, of the band with the least margin [Hz]."""
-        return BAND_LABELS[int(np.nanargmin(self.margins))]
+        """Nominal mid-band frequency, as text, of the band with the least margin [Hz]; empty without any."""
+        return "" if np.isinf(self.worst_margin) else BAND_LABELS[int(np.nanargmin(self.margins))]
 
     @property
     def fails(self) -> BoolArray:
@@ -174,6 +180,8 @@ class Verdict:
 
     def __str__(self) -> str:
         """Return the verdict in words."""
+        if np.isinf(self.worst_margin):
+            return f"{'complies' if self.complies else 'fails'}; {self._deflection_words}"
         amount = f"{margin_text(abs(self.worst_margin))} dB at {self.worst_band} Hz"
         count = int(self.fails.sum())
         if not count:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from trackig_core.analysis.statics import StaticResponse, static_response
+from trackig_core.bands import BANDS
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS
 from trackig_core.names import allowed, brief, is_name
 from trackig_core.track.catalogue import PRESETS
@@ -42,6 +43,9 @@ class View:
         ``"line"``, ``"rigid"`` or ``"stiff"``.
     base : int or None
         Number, from 0, of the pinned design from which differences are taken; None: from the current design.
+    bands : str
+        A key of :data:`trackig_core.bands.BANDS`: the bands that are shown and written. Limits and sources
+        stay one-third octaves.
 
     Raises
     ------
@@ -52,12 +56,13 @@ class View:
     summation: str = "energy"
     reference: str = "line"
     base: int | None = None
+    bands: str = "one-third-octave"
 
     def __post_init__(self) -> None:
         """Check every choice once."""
-        for name, choices in (("summation", SUMMATIONS), ("reference", REFERENCES)):
+        for name, choices in (("summation", SUMMATIONS), ("reference", REFERENCES), ("bands", BANDS)):
             value = getattr(self, name)
-            if value not in choices:
+            if value not in tuple(choices):
                 raise StudyError(f"{brief(value)}: give {' or '.join(map(repr, choices))}", f"view.{name}")
         if self.base is not None:
             check_count(self.base, "view.base")

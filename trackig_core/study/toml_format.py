@@ -271,8 +271,10 @@ def _table(
     if study.take(name) is None:
         return None
     section = study.section(name)
-    points, title = section.need(key), section.take("name", kind.name)
+    title = section.take("name", kind.name)
     limits = _limits(section) if kind is Specification else {}
+    # a limit of deflection may stand alone
+    points = section.take(key, []) if limits.get("rail_deflection_limit") is not None else section.need(key)
     section.close()
     try:
         return kind(points, title, **limits)
@@ -433,7 +435,8 @@ def written(study: Study) -> str:
 def _written_view(view: View) -> Table:
     table = tomlkit.table()
     for each in fields(View):
-        if getattr(view, each.name) is not None:
+        # what is as the paper has it needs no line, and an earlier version reads on
+        if getattr(view, each.name) is not None and (each.name != "bands" or view.bands != each.default):
             table.add(each.name, getattr(view, each.name))
     return table
 
@@ -535,7 +538,8 @@ def _write_axles(table: Table, design: TrackDesign) -> None:
 def _written_table(levels: BandTable, key: str) -> Table:
     table = tomlkit.table()
     table.add("name", levels.name)
-    _add_rows(table, key, levels.points, _LEVEL_ROWS)
+    if levels.points:
+        _add_rows(table, key, levels.points, _LEVEL_ROWS)
     if isinstance(levels, Specification) and levels.rail_deflection_limit is not None:
         for name, limit in _LIMIT_KEYS.items():
             table.add(limit, _number(getattr(levels, name)))

@@ -36,9 +36,9 @@ class HowFar(Asked):
         """Return the answer in one sentence, in the units of the sliders."""
         verdict = "complies" if result.complies else "fails"
         side = "within" if result.margin >= 0 else "beyond"
-        said = (
-            f"The design {verdict}, {abs(result.margin):.1f} dB {side} the limit at {result.governed_by} Hz"
-        )
+        said = f"The design {verdict}"
+        if result.governed_by != "deflection":
+            said += f", {abs(result.margin):.1f} dB {side} the limit at {result.governed_by} Hz"
         if result.deflection_limit is not None:
             said += (
                 f", its rail sinking {1e3 * result.deflection:.2f} of {1e3 * result.deflection_limit:.2f} mm"

@@ -184,3 +184,31 @@ def test_all_fields_cost_some_nine_hundred_designs(monkeypatch, above):
         assert len(solved) <= 5
         assert sum(solved) <= 1300
         solved.clear()
+
+
+def test_a_limit_of_deflection_alone_bounds_stiffness():
+    """Where no band has a limit, the rail sinks just as far as allowed at the edge."""
+    design = tig.PRESETS["slab-track"]
+    sinks = tig.static_response(design).rail_deflection
+    alone = tig.Specification((), rail_deflection_limit=1.2 * sinks)
+    found = tig.decide.feasible_ranges(design, alone, fields=["pad_stiffness"])
+    assert found.complies
+    assert found.governed_by == "deflection"
+    assert found.margin == pytest.approx(20 * np.log10(1.2), abs=1e-4)
+    ((low, high),) = found["pad_stiffness"]
+    assert high == found.ranges["pad_stiffness"][1]
+    edge = tig.static_response(design.replace(pad_stiffness=low)).rail_deflection
+    assert edge == pytest.approx(1.2 * sinks, rel=1e-3)
+    assert "its rail sinking" in str(found)
+    assert "Hz" not in str(found).split(";")[0]
+
+
+def test_every_other_question_takes_a_limit_of_deflection_alone():
+    design = tig.PRESETS["slab-track"]
+    alone = tig.Specification((), rail_deflection_limit=5e-4)
+    produced = tig.decide.tolerance(design, alone, {"pad_stiffness": 0.2}, samples=128, seed=1)
+    assert 0 <= produced.probability <= 1
+    ranges = {"pad_stiffness": (5e6, 2e8)}
+    found = tig.decide.find(design, alone, ranges, population=16, generations=2, seed=1)
+    assert found.front.size
+    assert tig.decide.sensitivity(design, specification=alone)

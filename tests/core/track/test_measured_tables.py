@@ -67,6 +67,13 @@ def test_a_header_a_thousand_times_off_is_asked_about_and_may_be_overruled():
     assert read_stiffness(data, unit="N/m").curve.points == ((199.5, 3.86e9, 0.1), (3162.0, 3.9e9, 0.1))
 
 
+def test_a_table_is_read_from_the_door_and_becomes_a_designs():
+    reading = tig.study.read_stiffness("f [Hz];k [kN/mm];eta\n10;20;0.06\n200;23.2;0.079")
+    assert (reading.unit, reading.question) == ("kN/mm", "")
+    design = tig.PRESETS["slab-track"].replace(pad_stiffness=reading.curve, pad_loss_factor=None)
+    assert design.pad_stiffness.points[0] == (10.0, 20e6, 0.06)
+
+
 def test_what_is_set_aside_is_said():
     reading = read_stiffness("T;f;k [kN/mm];eta\n20;0;18;0.1\n20;10;20;0.1\n20;20;;0.1\n20;30;22;0.1")
     assert reading.curve.points == ((10.0, 20e6, 0.1), (30.0, 22e6, 0.1))

@@ -49,7 +49,10 @@ any_values = st.fixed_dictionaries(
     }
 ).map(as_kept)
 any_view = st.fixed_dictionaries(
-    {name: st.sampled_from([*GainDefinition.param[name].objects]) for name in ("summation", "reference")}
+    {
+        name: st.sampled_from([*GainDefinition.param[name].objects])
+        for name in ("summation", "reference", "bands")
+    }
 )
 printable = st.characters(exclude_categories=["C", "Z"], include_characters=" ")
 any_name = st.text(printable, min_size=1, max_size=LONGEST_NAME).filter(is_name)

@@ -1,11 +1,19 @@
 """The limit of rail deflection on the page: typed, shown for each design, part of the verdict."""
 
+import datetime
+
 import pytest
 
 import trackig_core as tig
-from dashboard.views.deflection_limit import NO_BANDS, DeflectionLimit, deflections_html
+from dashboard.figures.insertion_gain import InsertionGainFigure
+from dashboard.report.data_sheet import data_sheet
+from dashboard.report.html_report import html_report
+from dashboard.report.pictures import picture
+from dashboard.session.heading import Heading
+from dashboard.views.deflection_limit import NOT_LIMITED, DeflectionLimit, deflections_html
 from dashboard.views.specification import SpecificationView
 
+DAY = datetime.date(2026, 3, 5)
 BANDS = tig.Specification([(63, 20.0)])
 
 
@@ -46,7 +54,7 @@ def test_what_cannot_be_a_limit_is_said_and_changes_nothing(session, limit, text
 
 
 def test_without_bands_there_is_nothing_to_limit():
-    assert deflections_html((), None) == f"<p>{NO_BANDS}</p>"
+    assert deflections_html((), None) == f"<p>{NOT_LIMITED}</p>"
 
 
 class FakeExchange:
@@ -63,3 +71,33 @@ def test_bands_that_are_typed_or_pasted_leave_the_limit(session):
     view.editor.take("63;-3")
     assert session.assessment.specification.points == ((63.0, -3.0),)
     assert session.assessment.specification.wheel_load == 112.5e3
+
+
+def test_a_limit_of_deflection_may_stand_alone(session):
+    """Verdict, study, report, CSV of bands and picture, without any band."""
+    session.show("slab-track")
+    limit = DeflectionLimit(session.assessment)
+    limit.boxes["rail_deflection_limit"].value = "0.03"
+    specification = session.assessment.specification
+    assert (specification.points, specification.rail_deflection_limit) == ((), pytest.approx(3e-5))
+    verdict = session.assessment.current.verdict
+    assert not verdict.complies
+    assert str(verdict).startswith("fails; rail deflection")
+    assert "✗" in limit.table.object
+    assert not specification.is_probably_loss
+    study = session.snapshot.study()
+    assert tig.Study.from_toml(study.to_toml()).specification == specification
+    result = session.assessment.current
+    report = html_report(study, {result.design: result.summary}, date=DAY, version="1")
+    assert "fails; rail deflection" in report
+    heading = Heading.of(study, [result], DAY)
+    assert "fails; rail deflection" in data_sheet(result, heading, specification)
+    assert picture("gain", "png", [result], heading, specification=specification)
+    InsertionGainFigure().show(result, limit=specification.levels)
+    view = SpecificationView(session.assessment, FakeExchange())
+    view.editor._take_typed(20, "3")
+    assert session.assessment.specification.points == ((500.0, 3.0),)
+    view.editor._take_typed(20, "")
+    assert session.assessment.specification == specification
+    limit.boxes["rail_deflection_limit"].value = ""
+    assert session.assessment.specification is None

@@ -7,7 +7,8 @@ import pytest
 
 import trackig_core as tig
 from dashboard.compute.idealisations import idealised
-from dashboard.views.idealisations import BAND_CHOICES, CHOICES, IdealisationsView, cost_words
+from dashboard.session.bands import CHOICES as BAND_CHOICES
+from dashboard.views.idealisations import CHOICES, IdealisationsView, cost_words
 from trackig_core.bands import BANDS
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
