@@ -43,6 +43,7 @@ def data_sheet(result, heading, specification=None, source=None):
         result=result,
         specification=specification,
         plot=plots.gain_svg([result], specification, PLOT_HEIGHT),
+        beyond_measured=formats.extrapolated_text(heading.design),
         bands=_bands(result, specification),
         inputs=_inputs(result.design),
         frequencies=[

@@ -119,6 +119,11 @@ class DesignResult:
         """Insertion gain (21,) [dB], or None while there is no solution."""
         return None if self.gain is None else self.gain.levels
 
+    @property
+    def extrapolated_bands(self):
+        """Labels of the bands that rest on extrapolation of what was measured of it (tuple of str)."""
+        return () if self.summary is None else self.summary.solution.extrapolated_bands
+
 
 @dataclass(frozen=True, eq=False)
 class VerifiedSummary:
