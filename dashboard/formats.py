@@ -123,7 +123,7 @@ def beyond_text(least, greatest, low, high):
 
 
 def extrapolated_text(name):
-    """Return what hatched bands are, in words (str): bands that rest on more than was measured of a design."""
+    """Return what hatched bands are, in words (str): they rest on more than was measured of a design."""
     return f"beyond what was measured of {name}"
 
 

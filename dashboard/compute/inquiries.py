@@ -153,14 +153,15 @@ def question_of(kind, settings, assessment, definition, design=None):
     trackig_core.decide.Question or None
         The question; None as long as it cannot be asked, for want of a specification or of a first solution.
     """
+    design = assessment.current.design if design is None else design
     with contextlib.suppress(ValueError):
         return tig.decide.Question(
             kind,
-            assessment.current.design if design is None else design,
+            design,
             settings,
             specification=assessment.specification,
             source=assessment.source,
-            reference=definition.reference_of(assessment.current.design),
+            reference=definition.reference_of(design),
             summation=definition.summation,
         )
     return None
