@@ -234,8 +234,10 @@ TABS = {
     f"@media (max-width: {NARROW_WINDOW}px)": {
         "& .MuiTab-root": {"padding": "12px 6px", "fontSize": 13.5, "letterSpacing": 0}
     },
+    # once there, the arrows take the room for want of which they stay
+    "@media (min-width: 1024px)": {"& .MuiTabs-scrollButtons": {"display": "none"}},
 }
-"""All ten tabs are in sight, in narrow windows too."""
+"""All ten tabs are in sight, in narrow windows too; where they do not fit, arrows lead to the others."""
 
 PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
 PANEL = {"borderRadius": "8px", "height": "100%", "backgroundColor": "var(--panel-surface-color)"}

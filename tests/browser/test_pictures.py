@@ -81,6 +81,16 @@ def test_all_tabs_are_in_sight_and_none_scrolls_sideways(small):
     assert small.evaluate(wide) == []
 
 
+def test_arrows_that_a_narrower_window_needed_hide_no_tab_of_a_wider_one(small):
+    arrows, tabs = small.locator(".MuiTabs-scrollButtons"), small.get_by_role("tab")
+    small.set_viewport_size({"width": 800, "height": 768})
+    expect(arrows.first).to_be_visible()
+    small.set_viewport_size({"width": 1024, "height": 768})
+    expect(arrows.first).to_be_hidden()
+    wait_until_at_rest(small)
+    assert tabs.first.bounding_box()["x"] >= small.locator(".MuiTabs-scroller").first.bounding_box()["x"]
+
+
 def test_formulas_are_set_and_none_has_a_scroll_bar(small):
     open_tab(small, "Method")
     formulas = """() => {
