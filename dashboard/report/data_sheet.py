@@ -12,7 +12,7 @@ from dashboard.report import plots
 from dashboard.report.html_report import FREQUENCIES, INPUT_ROWS, TEMPLATES, hertz_text, is_told
 from dashboard.session.special import input_text
 
-PLOT_HEIGHT = 3.1
+PLOT_HEIGHT = 2.9
 """Height of the plot [inch]."""
 
 
