@@ -122,6 +122,11 @@ def beyond_text(least, greatest, low, high):
     return " (cut off: reaches " + " and ".join(force_text(force) for force in beyond) + ")"
 
 
+def extrapolated_text(name):
+    """Return what hatched bands are, in words (str): they rest on more than was measured of a design."""
+    return f"beyond what was measured of {name}"
+
+
 def signed_text(level):
     """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
     text = f"{level:+.1f}"

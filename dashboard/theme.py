@@ -234,8 +234,10 @@ TABS = {
     f"@media (max-width: {NARROW_WINDOW}px)": {
         "& .MuiTab-root": {"padding": "12px 6px", "fontSize": 13.5, "letterSpacing": 0}
     },
+    # once there, the arrows take the room for want of which they stay
+    "@media (min-width: 1024px)": {"& .MuiTabs-scrollButtons": {"display": "none"}},
 }
-"""All ten tabs are in sight, in narrow windows too."""
+"""All ten tabs are in sight, in narrow windows too; where they do not fit, arrows lead to the others."""
 
 PAGE = {".MuiAppBar-root": {"backgroundColor": APP_BAR, "color": "white"}}
 PANEL = {"borderRadius": "8px", "height": "100%", "backgroundColor": "var(--panel-surface-color)"}
@@ -295,6 +297,11 @@ dd {{ margin: 0; }}
 COMPLIES, FAILS = COUPLED_BLOCK, SPECIFICATION
 """Of verdicts; a sign and words say the same."""
 
+COMPLIES_TEXT, FAILS_TEXT = (
+    f"color-mix(in srgb, {colour} 70%, var(--panel-on-background-color))" for colour in (COMPLIES, FAILS)
+)
+"""The same for words, which need a contrast of 4.5 (WCAG 2.2, 1.4.3): darker on light paper, else lighter."""
+
 _TABLE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); overflow-x: auto; }}
 table {{ border-collapse: collapse; font-size: 15px; font-variant-numeric: tabular-nums; }}
@@ -310,7 +317,7 @@ td {{ white-space: nowrap; }}
 thead th {{ vertical-align: bottom; }}
 svg {{ width: 34px; height: 6px; margin: 0 8px 3px 0; vertical-align: middle; }}
 th {{ overflow-wrap: break-word; max-width: 220px; }}
-.fails {{ color: {FAILS}; font-weight: 700; }}
+.fails {{ color: {FAILS_TEXT}; font-weight: 700; }}
 """
 
 BAND_GRID_CSS = f"""
@@ -346,8 +353,8 @@ li {{ display: contents; font-size: 22px; line-height: 1.3; }}
 li svg {{ align-self: center; }}
 .name {{ overflow-wrap: anywhere; }}
 span:last-child {{ white-space: nowrap; }}
-.complies {{ color: {COMPLIES}; font-weight: 700; }}
-.fails {{ color: {FAILS}; font-weight: 700; }}
+.complies {{ color: {COMPLIES_TEXT}; font-weight: 700; }}
+.fails {{ color: {FAILS_TEXT}; font-weight: 700; }}
 """
 
 QUANTITIES_CSS = f"""
@@ -450,7 +457,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
 .unit:empty {{ padding-right: 3px; }}
 .words, .advice {{ grid-column: 1 / -1; margin: 2px 0 4px 0; line-height: 1.35; overflow-wrap: anywhere; }}
 .words {{ font-size: 14px; }}
-.advice {{ font-size: 14px; font-weight: 500; color: {FAILS}; }}
+.advice {{ font-size: 14px; font-weight: 500; color: {FAILS_TEXT}; }}
 .advice:empty {{ display: none; }}
 .chip {{
     grid-column: 1 / -1; justify-self: start; max-width: 100%; margin: 2px 0 4px 0; padding: 3px 12px;
@@ -506,7 +513,7 @@ option {{ color: var(--ink); background: var(--panel-background-color); }}
 
 MESSAGE_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); }}
-div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS}; }}
+div {{ font-size: 15px; font-weight: 600; min-height: 20px; overflow-wrap: anywhere; color: {FAILS_TEXT}; }}
 div[role=status] {{ font-weight: 400; color: var(--panel-on-background-color); }}
 """
 

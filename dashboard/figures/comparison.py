@@ -78,7 +78,10 @@ class DesignsFigure:
         show_bands(self.model)
         self.legend = Legend(figure)
         self.layout = with_legend(self.model, self.legend)
-        self._reference, self._current = self.model.select({"type": GlyphRenderer})
+        # their order is that of the description; what `select` returns has none
+        self._reference, self._current = (
+            each for each in self.model.renderers if isinstance(each, GlyphRenderer)
+        )
         self._reference.data_source = self._current.data_source = self.curves
         names = [f"pin_{place}" for place in range(theme.MOST_PINNED)]
         self._pinned = PinnedLines(

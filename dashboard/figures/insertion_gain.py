@@ -301,7 +301,7 @@ class InsertionGainFigure:
         self.bands.data = _band_columns(gain.bands, levels, preset)
         # limits, measured curves and production stay in the bands that they are given in
         self._show_limit(limit, NO_LEVELS if alone else current.levels)
-        self._show_extrapolated(() if alone else current.summary.solution.extrapolated_bands)
+        self._show_extrapolated(() if alone else current.extrapolated_bands)
         self._show_production(None if alone else production)
         for part in (self._fill, self._line, self._dots):
             part.visible = not alone
@@ -403,7 +403,7 @@ THIS_DESIGN = ("this design", swatch_svg(theme.THIS_DESIGN, dot=True))
 AS_IN_TABLE_1 = ("as in Table 1", swatch_svg(theme.PRESET_GHOST, theme.SECOND_DASH))
 PRODUCTION = ("5 to 95 % of production", swatch_svg(theme.THIS_DESIGN, (2, 2)))
 REQUIRED, EXCEEDS = ("required maximum", limit_svg()), ("exceeds it", excess_svg())
-EXTRAPOLATED = ("beyond what was measured of this design", extrapolated_svg())
+EXTRAPOLATED = (formats.extrapolated_text("this design"), extrapolated_svg())
 """What the legend says beside the names of pinned designs."""
 
 HIGHER_THAN_ANY = 1e3

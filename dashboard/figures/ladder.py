@@ -5,7 +5,7 @@ back has colours of its own, and the one-dimensional model is dashed. dB, Hz.
 """
 
 import numpy as np
-from bokeh.models import ColumnDataSource, FactorRange, HoverTool, LinearColorMapper
+from bokeh.models import ColumnDataSource, CustomJS, FactorRange, HoverTool, LinearColorMapper
 from bokeh.palettes import RdBu11
 
 import trackig_core as tig
@@ -34,6 +34,9 @@ DARK = 0.7
 
 LABEL_ROOM = 190
 """Room for the names of the rungs, so that both figures have their bands below each other [px]."""
+
+UPRIGHT = 34
+"""Width of a cell in which its figure stands upright; in a narrower one it is turned [px]."""
 
 HEAT_HEIGHT = 38
 """Height of a row of cells [px]."""
@@ -89,7 +92,7 @@ class DifferencesFigure:
             fill_color={"field": "difference", "transform": colours},
             line_color=None,
         )
-        self.model.text(
+        figures = self.model.text(
             x="centre",
             y="rung",
             text="text",
@@ -99,6 +102,8 @@ class DifferencesFigure:
             text_baseline="middle",
             text_font_size=theme.CELL_SIZE,
         )
+        turning = f"glyph.angle = cb_obj.inner_width < {UPRIGHT * len(tig.BAND_LABELS)} ? Math.PI / 2 : 0"
+        self.model.js_on_change("inner_width", CustomJS(args={"glyph": figures.glyph}, code=turning))
         self.model.add_tools(
             HoverTool(
                 renderers=[drawn],

@@ -20,7 +20,7 @@ from dashboard.report.html_report import (
 from dashboard.session.special import input_text
 from trackig_core.bands import ONE_THIRD_OCTAVES
 
-PLOT_HEIGHT = 3.1
+PLOT_HEIGHT = 2.9
 """Height of the plot [inch]."""
 
 
@@ -54,6 +54,7 @@ def data_sheet(result, heading, specification=None, source=None, measured=()):
         specification=specification,
         plot=plots.gain_svg([result], specification, PLOT_HEIGHT, measured),
         measured=measured,
+        beyond_measured=formats.extrapolated_text(heading.design),
         bands=_bands(result, specification, measured),
         inputs=_inputs(result.design),
         frequencies=[

@@ -94,6 +94,7 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
             for each in results
             if reference_for(each.design, study.view.reference) != study.view.reference
         ],
+        beyond_measured=formats.extrapolated_text(results[0].name),
         gain_plot=plots.gain_svg(results, study.specification, measured=study.measured),
         difference_plot=plots.difference_svg(results, base) if len(results) > 1 else None,
         force_plot=plots.force_svg(results),

@@ -91,6 +91,9 @@ def _draw(kind, axes, results, heading, base, specification, measured):
     if specification is not None:
         handles.append(Patch(facecolor="none", edgecolor=theme.SPECIFICATION, linewidth=2))
         names.append(f"greatest allowed: {specification.name}")
+    if results[0].extrapolated_bands:
+        handles.append(Patch(**plots.EXTRAPOLATED))
+        names.append(formats.extrapolated_text(names[0]))
     marked = results[0].summary.solution.natural_frequencies
     for words, frequency, colour in (
         ("loaded track", marked.loaded_track, theme.LOADED_TRACK),

@@ -29,6 +29,9 @@ LEVEL_ROOM = 2.0
 FORCE_ROOM = 1.1
 """The same for forces: factor of the extremes [-]."""
 
+EXTRAPOLATED = {"facecolor": "none", "edgecolor": (theme.EXTRAPOLATED, 0.5), "hatch": r"\\\\", "linewidth": 0}
+"""Look of bands that rest on extrapolation, in plots and their legends."""
+
 LEAST_DIFFERENCES = 3.0
 """What the axis of differences reaches at least, up and down [dB]."""
 
@@ -112,14 +115,15 @@ def _curve(axes, x, y, result, **kind):
 def draw_gain(axes, results, specification, measured=()):
     """Draw insertion gain in the bands that are shown, the limit, where it is exceeded, and measured points.
 
-    Limits and measured levels are of one-third octaves, whichever bands are shown.
+    Limits and measured levels are of one-third octaves, whichever bands are shown; so are the bands that are
+    hatched because they rest on extrapolation.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
         Where it is drawn.
     results : sequence of DesignResult
-        Designs with a solution, front to back.
+        Designs with a solution, front to back; bands beyond what was measured of the first are hatched.
     specification : trackig_core.Specification or None
         The limit.
     measured : sequence of trackig_core.levels.MeasuredGain
@@ -145,8 +149,15 @@ def draw_gain(axes, results, specification, measured=()):
         seen = np.concatenate([seen, limits[np.isfinite(limits)]])
         _draw_limits(axes, limits, seen.max() + LEVEL_ROOM)
         _mark_failing(axes, results)
+    _hatch_extrapolated(axes, results[0].extrapolated_bands)
     axes.set_ylim(seen.min() - LEVEL_ROOM, seen.max() + LEVEL_ROOM)
     return lines[::-1]
+
+
+def _hatch_extrapolated(axes, bands):
+    """Hatch bands, given by their labels, over the whole height and behind all else."""
+    for band in map(tig.BAND_LABELS.index, bands):
+        axes.axvspan(*tig.BAND_EDGES[band : band + 2], zorder=0, **EXTRAPOLATED)
 
 
 def _draw_limits(axes, limits, top):

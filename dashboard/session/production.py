@@ -24,5 +24,5 @@ class Production(param.Parameterized):
         if not self.wanted or self.computed is None:
             return None
         of, reference, summation, percentiles = self.computed
-        same = (of, reference, summation) == (design, definition.reference, definition.summation)
+        same = (of, reference, summation) == (design, definition.reference_of(design), definition.summation)
         return percentiles[[0, 2]] if same else None

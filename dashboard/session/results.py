@@ -127,6 +127,11 @@ class DesignResult:
         """Insertion gain in the bands that are shown, or None while there is no solution."""
         return self.gain_shown or self.gain
 
+    @property
+    def extrapolated_bands(self):
+        """Labels of the bands that rest on extrapolation of what was measured of it (tuple of str)."""
+        return () if self.summary is None else self.summary.solution.extrapolated_bands
+
 
 @dataclass(frozen=True, eq=False)
 class VerifiedSummary:

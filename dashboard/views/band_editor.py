@@ -102,7 +102,9 @@ class BandEditor(Viewer):
             sizing_mode="stretch_width",
             margin=(4, 12, 4, 12),
         )
-        self.apply = _button("Take what is pasted", "content_paste_go", on_click=self._take_area)
+        self.apply = _button(
+            "Take what is pasted", "content_paste_go", margin=(4, 12, 4, 12), on_click=self._take_area
+        )
         self.load = _button("Open CSV", "upload_file", js_on_click=opening(name))
         self.template = _button("Template", "download", on_click=self._save_template)
         self.save = _button("Save CSV", "download", on_click=self._save)
@@ -220,5 +222,5 @@ class BandEditor(Viewer):
         )
 
 
-def _button(label, icon, **kind):
-    return pmui.Button(label=label, icon=icon, size="small", variant="outlined", margin=(4, 8, 4, 0), **kind)
+def _button(label, icon, margin=(4, 8, 4, 0), **kind):
+    return pmui.Button(label=label, icon=icon, size="small", variant="outlined", margin=margin, **kind)

@@ -81,6 +81,16 @@ def test_all_tabs_are_in_sight_and_none_scrolls_sideways(small):
     assert small.evaluate(wide) == []
 
 
+def test_arrows_that_a_narrower_window_needed_hide_no_tab_of_a_wider_one(small):
+    arrows, tabs = small.locator(".MuiTabs-scrollButtons"), small.get_by_role("tab")
+    small.set_viewport_size({"width": 800, "height": 768})
+    expect(arrows.first).to_be_visible()
+    small.set_viewport_size({"width": 1024, "height": 768})
+    expect(arrows.first).to_be_hidden()
+    wait_until_at_rest(small)
+    assert tabs.first.bounding_box()["x"] >= small.locator(".MuiTabs-scroller").first.bounding_box()["x"]
+
+
 def test_formulas_are_set_and_none_has_a_scroll_bar(small):
     open_tab(small, "Method")
     formulas = """() => {
@@ -96,3 +106,39 @@ def test_formulas_are_set_and_none_has_a_scroll_bar(small):
     small.wait_for_function(f"() => ({formulas})().length > 10")
     wait_until_at_rest(small)
     assert all(across <= 0 and down <= 2 for across, down in small.evaluate(formulas))
+
+
+CONTRAST = """words => {
+    const light = colour => {
+        const figures = colour.match(/[\\d.]+/g).slice(0, 3).map(Number)
+        const [r, g, b] = figures
+            .map(each => colour.startsWith("rgb") ? each / 255 : each)
+            .map(each => each <= 0.04045 ? each / 12.92 : ((each + 0.055) / 1.055) ** 2.4)
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05
+    }
+    const paper = light(getComputedStyle(document.querySelector(".main, main, body")).backgroundColor)
+    const ink = light(getComputedStyle(words).color)
+    return Math.max(paper, ink) / Math.min(paper, ink)
+}"""
+
+
+def test_words_of_a_verdict_are_legible_in_both_themes(small):
+    open_tab(small, "Specification")
+    verdict = small.get_by_role("listitem").locator(".fails").first
+    expect(verdict).to_be_visible()
+    assert verdict.evaluate(CONTRAST) >= 4.5
+    before = verdict.evaluate("words => getComputedStyle(words).color")
+    small.get_by_label("Toggle theme").click()
+    expect(verdict).not_to_have_css("color", before)
+    wait_until_at_rest(small)
+    assert verdict.evaluate(CONTRAST) >= 4.5
+    small.get_by_label("Toggle theme").click()
+    expect(verdict).to_have_css("color", before)
+
+
+def test_figures_in_narrow_cells_are_turned(small):
+    open_tab(small, "Learn")
+    open_tab(small, "What was left out")
+    expect(small.get_by_text("hardly matters")).to_be_visible()
+    look = "() => Bokeh.documents[0].get_model_by_name('left_out_cells_figure').renderers[1].glyph.angle"
+    small.wait_for_function(f"() => Math.abs(({look})().value - Math.PI / 2) < 1e-9")

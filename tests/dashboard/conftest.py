@@ -79,6 +79,16 @@ def session(summary):
     return Session(summary)
 
 
+@pytest.fixture
+def measured_result(session, fake_picture):
+    """Return the current design's result, its pad measured from 1 to 30 Hz only."""
+    session.show("booted-block-low-mass")
+    curve = tig.StiffnessCurve([(1, 90e6, 0.1), (30, 110e6, 0.2)])
+    design = tig.PRESETS["booted-block-low-mass"].replace(pad_stiffness=curve, pad_loss_factor=None)
+    session.outcome.summary = fake_picture(design)
+    return session.assessment.current
+
+
 class Session:
     """All plain parts of a session, put together as the page does."""
 

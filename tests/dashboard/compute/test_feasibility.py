@@ -74,6 +74,16 @@ def test_what_is_of_an_earlier_design_is_marked_until_the_answer_is_there(page):
     assert stale[2:] == []
 
 
+def test_ground_that_was_not_solved_yet_is_asked_about_against_the_stiff_track(page):
+    clay = tig.GROUNDS["soft clay"]
+    page.do(specification=LIMITS)
+    page.do(ground=clay)
+    assert page.feasibility.problem == ""
+    assert page.feasibility.answered.reference == "stiff"
+    expected = tig.decide.feasible_ranges(BLOCK.replace(ground=clay), LIMITS, reference="stiff")
+    assert page.panel.feasible == {name: shown_stretches(expected, name) for name in FIELDS}
+
+
 def test_a_single_stage_has_no_boot_to_be_asked_about(page):
     page.do(specification=LIMITS, two_stage=False)
     assert set(page.panel.feasible) == {name for name in FIELDS if not FIELDS[name].second_stage}

@@ -4,12 +4,12 @@ import gc
 import weakref
 
 import pytest
-from bokeh.models import Range1d, Span
+from bokeh.models import GlyphRenderer, Range1d, Span
 
 import trackig_core as tig
 from dashboard import theme
 from dashboard.figures.axes import BAND_AXIS, blank_figure, show_bands
-from dashboard.figures.comparison import BaseDifferenceFigure
+from dashboard.figures.comparison import CURRENT, REFERENCE, BaseDifferenceFigure, GainsFigure
 
 
 @pytest.fixture(scope="module")
@@ -68,3 +68,11 @@ def test_a_figure_ends_with_its_session():
     figures = [weakref.ref(BaseDifferenceFigure().model) for _ in range(2)]
     gc.collect()
     assert [each() for each in figures] == [None, None]
+
+
+def test_the_curve_of_the_current_design_is_never_taken_for_that_of_the_reference_track():
+    for _ in range(6):  # models that a set holds come in another order each time
+        figure = GainsFigure()
+        figure.show([])
+        lines = {each.glyph.y: each for each in figure.model.renderers if isinstance(each, GlyphRenderer)}
+        assert (figure._current, figure._reference) == (lines[CURRENT], lines[REFERENCE])

@@ -227,3 +227,11 @@ def test_a_hostile_name_stays_text():
 def test_colours_come_from_the_style(preset):
     colours = {*re.findall(r"#[0-9a-fA-F]{3,8}", track_drawing.track_svg(tig.PRESETS[preset]))}
     assert colours <= {*theme.FIGURE_COLOURS}
+
+
+def test_what_goes_on_beyond_the_drawing_is_cut_at_its_edge():
+    drawing = ET.fromstring(track_drawing.track_svg(LOW_MASS.replace(ground=tig.GROUNDS["rock"])))
+    (inner,) = drawing.findall(f"{SVG}svg")
+    box = f"{inner.get('x', '0')} {inner.get('y')} {inner.get('width')} {inner.get('height')}"
+    assert box == inner.get("viewBox") == drawing.get("viewBox")
+    assert {each.tag for each in drawing} == {f"{SVG}title", f"{SVG}desc", f"{SVG}svg"}

@@ -58,3 +58,10 @@ def test_what_a_single_stage_track_lacks_is_left_out(session):
     text = data_sheet(result, Heading.of(session.snapshot.study(), [result], DAY))
     for absent in ("Boot stiffness", "Coupled block", "Level with the track", "Limit", "–"):
         assert absent not in text
+
+
+def test_hatched_bands_are_named(session, measured_result):
+    heading = Heading.of(session.snapshot.study(), [measured_result], DAY)
+    text = data_sheet(measured_result, heading)
+    assert f"Hatched bands lie beyond what was measured of {heading.design}." in text
+    assert "<pattern " in text

@@ -319,3 +319,14 @@ def test_vehicle_and_ground_are_named_and_compared_with_what_has_a_meaning():
     assert "metro (generic)" in page
     assert "soft clay (generic)" in page
     assert "relative to a very stiff track on the same ground" in page
+
+
+def test_bands_beyond_what_was_measured_are_hatched_and_named(measured_result, summaries):
+    design, measured = tig.PRESETS["slab-track"], measured_result.summary.solution.design
+    study = tig.Study(measured, [tig.PinnedDesign("Slab", design, 0)])
+    known = {measured: measured_result.summary, **summaries}
+    text = html_report(study, known, date=DAY, version="1")
+    assert formats.extrapolated_text("This design") in text
+    assert "<pattern " in text
+    plain = html_report(tig.Study(design), known, date=DAY, version="1")
+    assert formats.extrapolated_text("This design") not in plain

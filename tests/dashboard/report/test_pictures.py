@@ -104,6 +104,23 @@ def test_the_curves_of_a_picture_are_the_results(results, heading, figures):
     np.testing.assert_array_equal(found, results[0].levels - results[1].levels)
 
 
+def test_bands_beyond_what_was_measured_are_hatched_as_on_the_page(session, measured_result, figures):
+    heading = Heading.of(session.snapshot.study(), [measured_result], DAY)
+    picture("gain", "png", [measured_result], heading)
+    (figure,) = figures
+    hatched = [patch for patch in figure.axes[0].patches if patch.get_hatch()]
+    beyond = measured_result.extrapolated_bands
+    assert len(hatched) == len(beyond) > 0
+    for label, patch in zip(beyond, hatched, strict=True):
+        band = tig.BAND_LABELS.index(label)
+        assert (patch.get_x(), patch.get_x() + patch.get_width()) == pytest.approx(
+            tuple(tig.BAND_EDGES[band : band + 2])
+        )
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert f"beyond what was measured of {heading.design}" in names
+    assert [each for each in figure.legends[0].get_patches() if each.get_hatch()]
+
+
 def test_a_drawing_holds_no_markup_of_a_name(results, heading):
     drawing = picture("gain", "svg", results, heading, specification=LIMIT).decode()
     assert "<b>" not in drawing

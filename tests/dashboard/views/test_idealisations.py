@@ -48,6 +48,15 @@ def test_levels_are_those_of_the_core(view):
     assert len(view.figure.legend.listed) == 4
 
 
+def test_on_ground_that_yields_levels_are_against_the_stiff_track(view, session, fake_picture):
+    design = BLOCK.replace(ground=tig.GROUNDS["soft clay"])
+    session.outcome.summary = fake_picture(design)
+    at_work(lambda: view.look(True))
+    np.testing.assert_allclose(
+        view.figure.levels.data["usual"], tig.solve(design, "exact", reference="stiff").insertion_gain
+    )
+
+
 def test_other_bands_are_shown_by_choice(view):
     at_work(lambda: view.look(True))
     at_work(lambda: view.bands.param.update(value="wide octave"))
