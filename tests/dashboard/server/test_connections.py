@@ -12,10 +12,10 @@ from dashboard.server.serving import MOST_BODY_BYTES
 from dashboard.server.sessions import MOST_MESSAGE_BYTES
 from tests.dashboard.server.test_served import health
 from tests.visitor import Visitor
+from tests.waiting import WAIT
 
 pytestmark = pytest.mark.slow
 
-WAIT = 60
 PAGE = b"/tools/dashboard"
 
 
