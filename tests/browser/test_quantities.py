@@ -15,6 +15,7 @@ from dashboard.session.shelf import Shelf
 from dashboard.theme import COMPLIES, QUANTITIES_CSS
 from dashboard.views.sidebar import Controls
 from tests.browser.test_dashboard import box, drag, levels, slider, thumb_of, wait_for_levels
+from tests.waiting import WAIT
 
 pytestmark = pytest.mark.browser
 
@@ -85,7 +86,7 @@ class Panel:
 def blank(chromium):
     """Return a blank page that complains in the test."""
     page = chromium.new_page(viewport={"width": 400, "height": 900})
-    page.set_default_timeout(20_000)
+    page.set_default_timeout(1000 * WAIT)
     broken = []
     page.on("pageerror", lambda error: broken.append(str(error)))
     yield page
@@ -115,7 +116,7 @@ def test_a_lost_answer_stops_nothing_for_long(blank):
     panel = Panel(blank)
     drag(blank, BOOT, 10, pause=1)
     assert len(panel.sent) == 1
-    blank.wait_for_function("() => window.sent.length === 2", timeout=10_000)
+    blank.wait_for_function("() => window.sent.length === 2")
     newest = float(slider(blank, BOOT).get_attribute("aria-valuetext"))
     assert panel.sent[1] == {"boot_stiffness": newest}
 
