@@ -100,8 +100,8 @@ WATCH = """() => {
     source.properties.data.change.connect(() => {
         window.frames_drawn.push(Array.from(source.data.level))
         // of the frame before
-        const models = [...Bokeh.documents[0]._all_models.values()]
-        window.labels_drawn.push(...models.map(model => model.data?.label).filter(label => label))
+        const labels = [...Bokeh.documents[0]._all_models.values()].map(model => model.data?.label)
+        window.labels_drawn.push(...labels.filter(label => typeof label == "string"))
     })
 }"""
 """Has a page note each curve that it draws, and what stood beside its title until then."""
