@@ -1,7 +1,8 @@
 """Order of the tests, and how Hypothesis draws examples.
 
 Tests run in two processes. Those in a browser come first, since they take longest, and stay together module
-by module, since opening a browser is dear. A run that decides whether a change may land draws the same
+by module, since opening a browser is dear; other slow ones come next, so that no process waits for the other
+to end one. A run that decides whether a change may land draws the same
 examples every time; others explore. No example has a deadline: the first may compile kernels, and machines
 are shared.
 """
@@ -26,8 +27,8 @@ def pytest_sessionstart(session):
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Put tests in a browser first, and each of their modules into one process."""
-    items.sort(key=lambda item: item.get_closest_marker("browser") is None)
+    """Put tests in a browser first, each of their modules into one process, then other slow ones."""
+    items.sort(key=lambda item: [item.get_closest_marker(name) is None for name in ("browser", "slow")])
     for item in items:
         if item.get_closest_marker("browser") is not None:
             item.add_marker(pytest.mark.xdist_group(item.path.stem))

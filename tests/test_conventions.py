@@ -19,6 +19,7 @@ CHECKS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", CHECKS.values(), ids=CHECKS.keys())
 def test_conventions(arguments):
     run = subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=False)

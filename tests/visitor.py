@@ -12,6 +12,8 @@ from urllib.parse import urlsplit
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
+from tests.waiting import WAIT
+
 SLIDER = "Boot stiffness, kN/mm"
 
 READY = {
@@ -49,13 +51,13 @@ class Visitor:
 
     async def open(self, pull=True, origin=None, drawn=True):
         """Ask for the page, then for the document in it, then wait for the picture, unless left out."""
-        page = await AsyncHTTPClient().fetch(self.url, request_timeout=120)
+        page = await AsyncHTTPClient().fetch(self.url, request_timeout=WAIT)
         token = re.search(r'"token":"([^"]+)"', page.body.decode())[1]
         parts = urlsplit(self.url)
         request = HTTPRequest(
             f"ws://{parts.netloc}{parts.path}/ws",
             headers={"Origin": origin or f"http://{parts.netloc}"},
-            request_timeout=120,
+            request_timeout=WAIT,
         )
         self.socket = await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**26)
         # as browsers do; else the second frame of a message waits until the first is acknowledged
@@ -64,7 +66,7 @@ class Visitor:
         if pull:
             await self.pull()
         if pull and drawn:
-            await self.until(lambda: self.named("insertion_gain") is not None, 120)
+            await self.until(lambda: self.named("insertion_gain") is not None)
         return self
 
     async def pull(self):
@@ -163,19 +165,19 @@ class Visitor:
         message = {"kind": "set", "number": self._number, "values": {"boot_stiffness": value}, "gesture": 1}
         await self.patch(told(self.component("groups"), message))
 
-    async def until(self, is_so, timeout=60):
+    async def until(self, is_so, timeout=WAIT):
         """Hear the server out until something is so."""
         async with asyncio.timeout(timeout):
             while not is_so():
                 await self.receive("PATCH-DOC")
 
-    async def picture(self, timeout=60):
+    async def picture(self, timeout=WAIT):
         """Wait for the next insertion gain, and return how long that took [s]."""
         began, seen = time.perf_counter(), self.pictures
         await self.until(lambda: self.pictures > seen, timeout)
         return time.perf_counter() - began
 
-    async def answer(self, timeout=60):
+    async def answer(self, timeout=WAIT):
         """Wait until the last move is answered, as the page does before it sends the next."""
         await self.until(lambda: self.answered == self._number, timeout)
 

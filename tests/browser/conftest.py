@@ -15,6 +15,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect, sync_playwright
 
+from tests.waiting import WAIT
+
 ROOT = Path(__file__).parent.parent.parent
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
@@ -22,11 +24,13 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stab
 START_LIMIT = 120
 """Seconds that the server may take to start on a slow machine with no compiled kernels."""
 
+expect.set_options(timeout=1000 * WAIT)
+
 SOLVED = re.compile("Paper's run|Live run")
 """What the status line says once there is something to see."""
 
 
-def wait_until_solved(page, timeout=60_000):
+def wait_until_solved(page, timeout=1000 * WAIT):
     """Wait until a page stands still, and shows its design solved."""
     page.wait_for_function("() => window.Bokeh?.documents?.[0]?.is_idle", timeout=timeout)
     # the status line comes last, after the view in the open tab
@@ -53,11 +57,21 @@ def wait_until_at_rest(page):
     )
 
 
+def wait_until_drawn(page, name):
+    """Wait until a model of a name is drawn; one that is set or looked at before may not heed it."""
+    page.wait_for_function(
+        """name => {
+            const model = Bokeh.documents[0].get_model_by_name(name)
+            const view = model && Bokeh.index.find_one(model)
+            return view != null && view.has_finished() && view.el.isConnected
+        }""",
+        arg=name,
+    )
+
+
 def resting_place(page, figure, x, down):
     """Return where a figure at rest shows a value of x, so many pixels below the top of its frame."""
-    page.wait_for_function(
-        "name => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name)) != null", arg=figure
-    )
+    wait_until_drawn(page, figure)
     return page.evaluate(
         """([name, x, down]) => new Promise(done => {
             const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
@@ -75,7 +89,7 @@ def resting_place(page, figure, x, down):
     )
 
 
-def hover_until_shown(page, figure, x, shown, patience=60):
+def hover_until_shown(page, figure, x, shown, patience=WAIT):
     """Rest the pointer on a figure until something is shown; a late layout may move the figure away."""
     deadline = time.monotonic() + patience
     while not shown.is_visible() and time.monotonic() < deadline:
@@ -166,7 +180,7 @@ def serving(port, log):
     finally:
         server.terminate()
         with contextlib.suppress(subprocess.TimeoutExpired):
-            server.wait(10)
+            server.wait(30)
         server.kill()
         server.wait()
     assert "Traceback" not in log.read_text(), log.read_text()
@@ -211,7 +225,7 @@ class Reader:
         """Open the dashboard, and wait for nothing that it shows."""
         page = self._context.new_page()
         page.set_viewport_size({"width": width, "height": height})
-        page.set_default_timeout(60_000)
+        page.set_default_timeout(1000 * WAIT)
         page.on("request", lambda request: self._requested.append(request.url))
         page.on("websocket", lambda websocket: self._requested.append(websocket.url))
         page.on("pageerror", lambda error: self._complaints.append(str(error)))
@@ -219,13 +233,13 @@ class Reader:
         page.goto(self._address + query, wait_until="commit")
         return page
 
-    def keep(self, width=1440, height=900):
-        """Return a page that tests share: what one leaves there the next one finds."""
-        size = (width, height)
-        if size not in self._kept:
-            self._kept[size] = self.open(*size)
-        self._kept[size].bring_to_front()
-        return self._kept[size]
+    def keep(self, width=1440, height=900, left="anyhow"):
+        """Return a page that tests of a kind share: what one leaves there the next one finds."""
+        kind = (width, height, left)
+        if kind not in self._kept:
+            self._kept[kind] = self.open(width, height)
+        self._kept[kind].bring_to_front()
+        return self._kept[kind]
 
     def _listen(self, line):
         if line.type in ("error", "warning"):
@@ -279,6 +293,13 @@ def open_dashboard(reader):
 def dashboard(open_dashboard):
     """Open the dashboard."""
     return open_dashboard()
+
+
+@pytest.fixture
+def untouched_dashboard(reader):
+    """Open the dashboard once for all tests that leave its design, tab and theme as they found them."""
+    yield reader.keep(left="as it opened")
+    reader.check()
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 import trackig_core as tig
 from dashboard.compute.feasibility import shown_stretches
 from dashboard.fields import FIELDS
-from tests.browser.conftest import wait_until_at_rest
+from tests.browser.conftest import wait_until_at_rest, wait_until_drawn
 from tests.browser.test_dashboard import OPENING, box, slider
 from tests.browser.test_workshop import open_tab
 
@@ -94,6 +94,7 @@ def test_all_parts_appear_when_the_tab_is_opened_by_click(open_dashboard, width,
     assert np.abs(drawn).max() > 0.5
     wait_until_at_rest(page)
     for name in ("change_figure", "tornado_figure", "percentile_figure"):
+        wait_until_drawn(page, name)
         size = page.evaluate(
             """name => {
                 const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
@@ -115,12 +116,7 @@ def test_a_map_is_drawn_kept_and_listed(open_dashboard):
     open_tab(page, "Decide")
     page.get_by_role("button", name="Draw the map").click()
     expect(page.get_by_text("of the designs over boot stiffness and block mass comply")).to_be_visible()
-    page.wait_for_function(
-        """() => {
-            const map = Bokeh.documents[0].get_model_by_name("map_figure")
-            return map !== null && Bokeh.index.find_one(map) !== null
-        }"""
-    )
+    wait_until_drawn(page, "map_figure")
     page.get_by_role("button", name="Keep the answer").last.click()
     expect(page.get_by_role("heading", name="Which designs comply over two numbers?")).to_be_visible()
     page.get_by_role("button", name="Ask again").click()

@@ -10,7 +10,7 @@ import trackig_core as tig
 from dashboard import assets
 from dashboard.figures import motion as figures_motion
 from dashboard.teaching.lessons import load_lessons, reveal
-from tests.browser.conftest import count_sent, resting_place, wait_until_at_rest
+from tests.browser.conftest import count_sent, resting_place, wait_until_at_rest, wait_until_drawn
 from tests.browser.test_dashboard import box, choose, column, wait_for_levels
 
 pytestmark = pytest.mark.browser
@@ -37,13 +37,7 @@ def model(page, name, attribute):
 
 def set_model(page, name, attribute, value):
     """Set a property of a model in the browser, once it has been drawn."""
-    page.wait_for_function(
-        """name => {
-            const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
-            return view != null && view.has_finished() && view.el.isConnected
-        }""",
-        arg=name,
-    )
+    wait_until_drawn(page, name)
     page.evaluate(
         "([name, attribute, value]) => { Bokeh.documents[0].get_model_by_name(name)[attribute] = value }",
         [name, attribute, value],
@@ -119,6 +113,7 @@ def test_a_click_or_a_drag_on_the_curve_chooses_the_frequency_of_the_shape(dashb
     look_at(dashboard, "Motion")
     model(dashboard, "pick_bands", "name")
     figure = """() => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("pick_bands_figure"))"""
+    wait_until_drawn(dashboard, "pick_bands_figure")
     dashboard.evaluate(f"() => ({figure})().el.scrollIntoView()")
     x, y = resting_place(dashboard, "pick_bands_figure", 200, 40)
     dashboard.mouse.click(x, y)

@@ -1,18 +1,32 @@
 """The first start on a machine: pages are served while the kernels are compiled, and lose nothing by it."""
 
+import shutil
+
 import numpy as np
 import pytest
+from numba.core.caching import UserProvidedCacheLocator
 
 import trackig_core as tig
 from tests.browser.conftest import wait_until_solved
+from trackig_core.frequency_domain import batch_kernels
 
 pytestmark = pytest.mark.browser
+
+
+def keep_exact_kernels(folder):
+    """Put compiled code of exact solutions where Numba looks for it in a folder; that of runs is missing.
+
+    The latter alone takes longer to compile than a page to open; all of it takes as long as ten pages.
+    """
+    part = UserProvidedCacheLocator.get_suitable_cache_subpath(batch_kernels.__file__)
+    shutil.copytree(batch_kernels.solve_rows.stats.cache_path, folder / part)
 
 
 def test_a_page_opened_while_kernels_are_compiled_shows_its_picture(
     serve, port, chromium, tmp_path, monkeypatch
 ):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "empty"))
+    keep_exact_kernels(tmp_path / "cache")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
     with serve(port, tmp_path / "log.txt") as url:
         context = chromium.new_context()
         page = context.new_page()

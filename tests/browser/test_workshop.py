@@ -13,6 +13,7 @@ from playwright.sync_api import expect
 import trackig_core as tig
 from tests.browser.conftest import wait_until_solved
 from tests.browser.test_dashboard import MARKUP, box, drag, wait_for_levels
+from tests.waiting import WAIT
 
 pytestmark = pytest.mark.browser
 
@@ -237,7 +238,7 @@ def test_a_restarted_server_loses_nothing(chromium, serve, port, tmp_path):
     logs = (tmp_path / f"log{number}.txt" for number in itertools.count())
     context = chromium.new_context(viewport={"width": 1440, "height": 900})
     page = context.new_page()
-    page.set_default_timeout(60_000)
+    page.set_default_timeout(1000 * WAIT)
     broken = []
     page.on("pageerror", lambda error: broken.append(str(error)))
     try:

@@ -11,6 +11,8 @@ import pytest
 
 import trackig_core
 
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("compiling")]
+
 SOLVE = """
 import sys, tempfile
 if sys.argv[1:]:

@@ -16,6 +16,7 @@ import dashboard
 import trackig_core as tig
 from dashboard import app, app_hooks
 from dashboard.compute.workers import AT_REST
+from tests.waiting import WAIT, until_at_rest
 
 MAIN = Path(dashboard.__file__).parent / "main.py"
 
@@ -23,7 +24,7 @@ MAIN = Path(dashboard.__file__).parent / "main.py"
 @pytest.fixture
 def store(instant_store):
     """Return a store that has the opening picture already."""
-    instant_store.request((tig.PRESETS["booted-block-low-mass"], AT_REST)).future.result(30)
+    instant_store.request((tig.PRESETS["booted-block-low-mass"], AT_REST)).future.result(WAIT)
     return instant_store
 
 
@@ -64,9 +65,7 @@ def open_tabs(store, monkeypatch, name, *others):
         opened = shown.active
         for other in others:
             shown.active = list(TABS).index(other)
-        async with asyncio.timeout(60):
-            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                await asyncio.wait(tasks)
+        await until_at_rest()
         return app.TABS[opened].link_name
 
     return asyncio.run(story())

@@ -19,6 +19,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.cli import main
+from tests.waiting import WAIT
 
 ROOT = Path(__file__).parent.parent.parent
 BLOCK = tig.PRESETS["booted-block-low-mass"]
@@ -300,13 +301,13 @@ def run(arguments, folder, **more):
 def test_the_command_runs_as_a_process_and_lets_go_of_a_closed_pipe(tmp_path):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     process = run(["solve", "slab-track", "--fidelity", "exact"], tmp_path, **pipes)
-    output, errors = process.communicate(timeout=120)
+    output, errors = process.communicate(timeout=WAIT)
     assert (process.returncode, errors) == (0, "")
     assert "loaded track" in output
     process = run(["solve", "slab-track", "--fidelity", "exact"], tmp_path, **pipes)
     process.stdout.close()
     assert process.stderr.read() == ""
-    assert process.wait(120) == 0
+    assert process.wait(WAIT) == 0
     process.stderr.close()
 
 
@@ -315,7 +316,7 @@ def test_verdicts_that_nobody_reads_do_not_pass_for_compliance(tmp_path, save):
         ["check", save(specification=FLOOR), "--fidelity", "exact"], tmp_path, stdout=subprocess.PIPE
     )
     process.stdout.close()
-    assert process.wait(120) == 141
+    assert process.wait(WAIT) == 141
 
 
 @pytest.mark.parametrize(
@@ -347,17 +348,17 @@ def test_serve_shows_the_dashboard_from_anywhere(tmp_path):
     with log.open("w") as output:
         server = run(["serve", "--port", str(port)], tmp_path, stdout=output, stderr=subprocess.STDOUT)
     try:
-        page, deadline = "", time.monotonic() + 120
+        page, deadline = "", time.monotonic() + WAIT
         while not page and server.poll() is None and time.monotonic() < deadline:
             with (
                 contextlib.suppress(urllib.error.URLError, ConnectionError),
-                urllib.request.urlopen(f"http://localhost:{port}/dashboard", timeout=120) as answer,
+                urllib.request.urlopen(f"http://localhost:{port}/dashboard", timeout=WAIT) as answer,
             ):
                 page = answer.read().decode()
             time.sleep(0.1)
     finally:
         server.terminate()
-        server.wait(30)
+        server.wait(WAIT)
     assert "<title>trackig</title>" in page, log.read_text()
     assert "could not start" not in page
     assert f"http://localhost:{port}/dashboard" in log.read_text()

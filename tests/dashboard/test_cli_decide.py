@@ -17,6 +17,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.cli import main
+from tests.waiting import WAIT
 
 ROOT = Path(__file__).parent.parent.parent
 BLOCK = tig.PRESETS["booted-block-low-mass"]
@@ -286,7 +287,7 @@ def test_control_c_leaves_the_best_so_far(save, tmp_path):
     assert process.stderr.readline() == "0 %\n"
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    said, _ = process.communicate(timeout=60)
+    said, _ = process.communicate(timeout=WAIT)
     assert process.returncode == 130
     assert "designs comply, and no other beats" in said
     assert len(table(out)) >= 100

@@ -2,6 +2,7 @@
 
 import asyncio
 from pathlib import Path
+from types import SimpleNamespace
 
 import panel as pn
 import pytest
@@ -12,6 +13,7 @@ from dashboard.client import exchange as exchange_module
 from dashboard.client.exchange import Exchange, opening
 from dashboard.session.inputs import values_of
 from dashboard.session.shelf import Shelf
+from tests.waiting import until_at_rest
 
 LIMITS = tig.Specification([(63, -3.0)])
 
@@ -45,19 +47,28 @@ def told(monkeypatch):
 
 
 def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatch):
-    monkeypatch.setattr(exchange_module, "REST", 0.05)
-
     async def run():
+        rest = asyncio.Event()
+        waited = []
+
+        def until_rest(seconds):
+            waited.append(seconds)
+            return rest.wait()
+
+        monkeypatch.setattr(exchange_module, "asyncio", SimpleNamespace(sleep=until_rest))
         exchange = Exchange(session.snapshot)
         assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml()]
         noted = []
         exchange.param.watch(lambda event: noted.append(event.new), "kept")
         for stiffness in range(30, 40):
             session.inputs.boot_stiffness = stiffness
-            await asyncio.sleep(0.005)
+            await asyncio.sleep(0.001)
         session.assessment.specification = LIMITS
         assert noted == []
-        await asyncio.sleep(0.3)
+        rest.set()
+        await until_at_rest()
+        assert set(waited) == {exchange_module.REST}
+        assert len(waited) == 2, "changes that come while others rest are waited for too"
         assert noted == [[session.snapshot.query(), session.snapshot.study().to_toml()]]
         assert "boot_stiffness=39" in noted[0][0]
 

@@ -6,8 +6,7 @@ from concurrent.futures import CancelledError
 import pytest
 
 from dashboard.compute.fair import FairExecutor
-
-WAIT = 30
+from tests.waiting import WAIT
 
 
 class Jobs:

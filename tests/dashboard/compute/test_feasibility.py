@@ -1,7 +1,5 @@
 """Where the current design complies: asked when inputs change, and never shown of another design."""
 
-import asyncio
-
 import numpy as np
 import pytest
 
@@ -14,8 +12,8 @@ from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
 from dashboard.session.shelf import Shelf
 from dashboard.views.sidebar import Controls
+from tests.waiting import on_a_loop
 
-WAIT = 60
 LIMITS = tig.Specification([(63, -4.0), (125, -6.0)], rail_deflection_limit=2.5e-3)
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 
@@ -32,14 +30,11 @@ class Page:
     def do(self, **changes):
         """Change inputs or the specification, and wait until everything rests."""
 
-        async def changed():
+        def change():
             for name, value in changes.items():
                 setattr(self.assessment if name == "specification" else self.inputs, name, value)
-            async with asyncio.timeout(WAIT):
-                while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                    await asyncio.wait(tasks)
 
-        asyncio.run(changed())
+        on_a_loop(change)
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.results import Outcome
+from tests.waiting import WAIT, until, until_at_rest
 
-WAIT = 60
 LIMITS = tig.Specification([(63, -4.0), (125, -6.0)])
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 
@@ -40,12 +40,6 @@ class Slow:
         return self.answer
 
 
-async def until(condition):
-    async with asyncio.timeout(WAIT):
-        while not condition():
-            await asyncio.sleep(0.002)
-
-
 @pytest.fixture
 def inquiry(monkeypatch):
     monkeypatch.setattr(inquiries, "LOOK_EVERY", 0.005)
@@ -55,9 +49,7 @@ def inquiry(monkeypatch):
 def story(coroutine):
     async def told():
         await coroutine
-        async with asyncio.timeout(WAIT):
-            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                await asyncio.wait(tasks)
+        await until_at_rest()
 
     asyncio.run(told())
 
@@ -127,7 +119,7 @@ def test_a_refusal_is_told_in_its_own_words_and_an_accident_is_not(inquiry, capl
 
 
 def test_while_a_slider_moves_quick_questions_wait(inquiry, monkeypatch):
-    monkeypatch.setattr(inquiries, "REST", 0.2)
+    monkeypatch.setattr(inquiries, "REST", WAIT)
     InquiryRunner(inquiry)
     questions = [Slow() for _ in range(4)]
     for each in questions:
@@ -135,9 +127,11 @@ def test_while_a_slider_moves_quick_questions_wait(inquiry, monkeypatch):
         each.go_on.set()
 
     async def drag():
-        for each in questions:
+        for each in questions[:-1]:
             inquiry.asked = each
             await asyncio.sleep(0.001)
+        monkeypatch.setattr(inquiries, "REST", 0.01)
+        inquiry.asked = questions[-1]
         await until(lambda: inquiry.answered is questions[-1])
 
     story(drag())

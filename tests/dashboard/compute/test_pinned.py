@@ -10,6 +10,7 @@ from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.workers import AT_REST
 from dashboard.session.pins import Pins
 from dashboard.theme import MOST_PINNED
+from tests.waiting import WAIT, on_a_loop, until
 
 
 def varied(count):
@@ -22,19 +23,6 @@ def many(count, *names):
     return [(varied(each), names[each] if names else "", None) for each in range(count)]
 
 
-def do(action, *arguments):
-    """Call something on an event loop, wait for all that it set going, and return what it returned."""
-
-    async def acted():
-        result = action(*arguments)
-        async with asyncio.timeout(30):
-            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                await asyncio.wait(tasks)
-        return result
-
-    return asyncio.run(acted())
-
-
 @pytest.fixture
 def pins():
     return Pins()
@@ -42,7 +30,7 @@ def pins():
 
 def test_what_the_store_knows_is_there_at_once(pins, make_store, fake_picture):
     store = make_store(lambda key, *_: fake_picture(key[0]))
-    known = store.request((tig.PRESETS["slab-track"], AT_REST)).future.result(30)
+    known = store.request((tig.PRESETS["slab-track"], AT_REST)).future.result(WAIT)
     pinned = PinnedSummaries(pins, store)
 
     async def pin():
@@ -55,7 +43,7 @@ def test_what_the_store_knows_is_there_at_once(pins, make_store, fake_picture):
 def test_what_is_not_known_is_solved_at_rest_and_told(pins, instant_store):
     pinned, told = PinnedSummaries(pins, instant_store), []
     pinned.param.watch(lambda event: told.append(set(event.new)), "summaries")
-    new = do(pins.add_all, many(MOST_PINNED))
+    new = on_a_loop(pins.add_all, many(MOST_PINNED))
     assert {key: summary.design for key, summary in pinned.summaries.items()} == {
         pin.key: pin.design for pin in new
     }
@@ -65,16 +53,16 @@ def test_what_is_not_known_is_solved_at_rest_and_told(pins, instant_store):
 
 def test_pins_that_were_there_before_are_solved_too(pins, instant_store):
     pin = pins.add(varied(0))
-    assert set(do(PinnedSummaries, pins, instant_store).summaries) == {pin.key}
+    assert set(on_a_loop(PinnedSummaries, pins, instant_store).summaries) == {pin.key}
 
 
 def test_a_picture_goes_with_its_pin_and_stays_through_a_new_name(pins, instant_store):
     pinned = PinnedSummaries(pins, instant_store)
-    one, other = do(pins.add_all, many(2, "one", "other"))
+    one, other = on_a_loop(pins.add_all, many(2, "one", "other"))
     shown = pinned.summaries[one.key]
-    do(pins.rename, one.key, "renamed")
+    on_a_loop(pins.rename, one.key, "renamed")
     assert pinned.summaries[one.key] is shown
-    do(pins.remove, other.key)
+    on_a_loop(pins.remove, other.key)
     assert set(pinned.summaries) == {one.key}
 
 
@@ -94,14 +82,6 @@ class Gate:
                 raise RuntimeError("nobody waits")
         self.running -= 1
         return self.summary(key[0])
-
-
-async def until(condition):
-    for _ in range(1000):
-        if condition():
-            return
-        await asyncio.sleep(0.01)
-    raise AssertionError("it never came to be")
 
 
 def test_the_event_loop_goes_on_and_one_pin_is_solved_at_a_time(pins, make_store, fake_picture):
@@ -143,8 +123,8 @@ def test_a_design_that_cannot_be_solved_says_why_and_stops_none_of_the_others(pi
         return fake_picture(key[0])
 
     pinned = PinnedSummaries(pins, make_store(solve))
-    refused, fine = do(pins.add_all, many(2))
+    refused, fine = on_a_loop(pins.add_all, many(2))
     assert "the record is too long" in pinned.problems[refused.key]
     assert set(pinned.summaries) == {fine.key}
-    do(pins.remove, refused.key)
+    on_a_loop(pins.remove, refused.key)
     assert pinned.problems == {}

@@ -5,7 +5,7 @@ from concurrent.futures import CancelledError
 
 import pytest
 
-WAIT = 30
+from tests.waiting import WAIT
 
 
 class Gate:

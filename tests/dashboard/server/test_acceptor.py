@@ -7,6 +7,7 @@ import pytest
 
 from dashboard.server import acceptor as module
 from dashboard.server.acceptor import Acceptor
+from tests.waiting import WAIT, wait_until
 
 
 class Door:
@@ -27,7 +28,7 @@ class Door:
 
     def knock(self, data=b""):
         """Return a connection that has sent something."""
-        knocking = socket.create_connection(self.place, timeout=10)
+        knocking = socket.create_connection(self.place, timeout=WAIT)
         knocking.sendall(data)
         return knocking
 
@@ -50,13 +51,6 @@ def door():
     yield make
     for each in made:
         each.close()
-
-
-def wait_until(true, patience=10):
-    deadline = time.monotonic() + patience
-    while not true() and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert true()
 
 
 @pytest.mark.parametrize("target", [b"/tools/health", b"/tools/health?who=proxy"])

@@ -1,6 +1,5 @@
 """The tab Decide: every figure on it is the library's, in the units of the sliders."""
 
-import asyncio
 import csv
 import dataclasses
 import json
@@ -21,8 +20,8 @@ from dashboard.session.production import Production
 from dashboard.session.results import Outcome
 from dashboard.views.decide.asked import NO_SPECIFICATION
 from dashboard.views.decide.tab import Decide
+from tests.waiting import on_a_loop
 
-WAIT = 60
 LIMITS = tig.Specification(
     [(31.5, 15.0), (63, -4.0), (125, -6.0), (250, -14.0)], rail_deflection_limit=2.5e-3
 )
@@ -49,14 +48,7 @@ class Session:
 
     def do(self, action, *arguments, **values):
         """Call something on an event loop, and wait for all that it set going."""
-
-        async def acted():
-            action(*arguments, **values)
-            async with asyncio.timeout(WAIT):
-                while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                    await asyncio.wait(tasks)
-
-        asyncio.run(acted())
+        on_a_loop(action, *arguments, **values)
 
 
 @pytest.fixture

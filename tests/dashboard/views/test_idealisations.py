@@ -1,7 +1,5 @@
 """The solution on other assumptions: computed while somebody looks, drawn by choice, its cost in words."""
 
-import asyncio
-
 import numpy as np
 import pytest
 
@@ -9,6 +7,7 @@ import trackig_core as tig
 from dashboard.compute.idealisations import idealised
 from dashboard.session.bands import CHOICES as BAND_CHOICES
 from dashboard.views.idealisations import CHOICES, IdealisationsView, cost_words
+from tests.waiting import on_a_loop
 from trackig_core.bands import BANDS
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
@@ -20,24 +19,12 @@ def view(session):
     return IdealisationsView(session.outcome, session.definition)
 
 
-def at_work(act):
-    """Do something as a server does, and wait for what it set going."""
-
-    async def done():
-        act()
-        async with asyncio.timeout(30):
-            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                await asyncio.wait(tasks)
-
-    asyncio.run(done())
-
-
 def test_nothing_is_computed_while_nobody_looks(view):
     assert view.idealisations.found is None
 
 
 def test_levels_are_those_of_the_core(view):
-    at_work(lambda: view.look(True))
+    on_a_loop(view.look, True)
     data = view.figure.levels.data
     np.testing.assert_allclose(data["usual"], tig.solve(BLOCK, "exact").insertion_gain)
     for name, choice in (("hysteretic", {"damping": "hysteretic"}), ("timoshenko", {"rail": "timoshenko"})):
@@ -51,15 +38,15 @@ def test_levels_are_those_of_the_core(view):
 def test_on_ground_that_yields_levels_are_against_the_stiff_track(view, session, fake_picture):
     design = BLOCK.replace(ground=tig.GROUNDS["soft clay"])
     session.outcome.summary = fake_picture(design)
-    at_work(lambda: view.look(True))
+    on_a_loop(view.look, True)
     np.testing.assert_allclose(
         view.figure.levels.data["usual"], tig.solve(design, "exact", reference="stiff").insertion_gain
     )
 
 
 def test_other_bands_are_shown_by_choice(view):
-    at_work(lambda: view.look(True))
-    at_work(lambda: view.bands.param.update(value="wide octave"))
+    on_a_loop(view.look, True)
+    on_a_loop(view.bands.param.update, value="wide octave")
     assert list(view.figure.levels.data["label"]) == list(BANDS["wide octave"].labels)
     assert "read the outer bands with care" in view.words.object
 

@@ -19,6 +19,7 @@ from dashboard.views.lessons import Lessons
 from dashboard.views.method import Method, method_html
 from dashboard.views.motion import Motion
 from dashboard.views.subjects import Damping, Definitions, LumpedVsBeam, Resonances, Slopes
+from tests.waiting import until
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 
@@ -65,7 +66,7 @@ def test_nothing_is_worked_out_that_nobody_looks_at():
         await asyncio.sleep(0.05)
         assert asked == []
         question.looked_at = True
-        await asyncio.sleep(0.1)
+        await until(lambda: asked)
         assert asked == ["early"]
         question.looked_at = False
         question.asked = (asked.append, "late")

@@ -1,6 +1,5 @@
 """One event, one computation and one drawing: whatever happens, nothing is computed or drawn twice."""
 
-import asyncio
 from collections import Counter
 
 import pytest
@@ -18,6 +17,7 @@ from dashboard.session.results import Outcome
 from dashboard.theme import MOST_PINNED
 from dashboard.views import compare, received_level, specification
 from dashboard.views.explore import Explore
+from tests.waiting import WAIT, on_a_loop
 from trackig_core import solution as solution_module
 
 OPENING = tig.PRESETS["booted-block-low-mass"]
@@ -64,19 +64,6 @@ class Everything:
         )
 
 
-def on_a_loop(action, *arguments):
-    """Do something as a server does, on an event loop, and wait for what it set going."""
-
-    async def acted():
-        result = action(*arguments)
-        async with asyncio.timeout(30):
-            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                await asyncio.wait(tasks)
-        return result
-
-    return asyncio.run(acted())
-
-
 def varied(count):
     return OPENING.replace(block_mass=100.0 + count)
 
@@ -85,7 +72,7 @@ def varied(count):
 def everything(make_store, fake_picture):
     store = make_store(lambda key, *_: fake_picture(key[0]), capacity=20)
     for count in range(MOST_PINNED):
-        store.request((varied(count), AT_REST)).future.result(30)
+        store.request((varied(count), AT_REST)).future.result(WAIT)
     return on_a_loop(Everything, store, fake_picture)
 
 

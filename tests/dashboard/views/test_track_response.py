@@ -1,6 +1,5 @@
 """The track's response on the page: computed while somebody looks, drawn for all shown designs, saved."""
 
-import asyncio
 import io
 
 import numpy as np
@@ -11,6 +10,7 @@ import trackig_core as tig
 from dashboard.compute.responses import TrackResponses
 from dashboard.figures.track_response import MIDSPAN, SUPPORT
 from dashboard.views.track_response import TrackResponseView
+from tests.waiting import on_a_loop
 
 
 class FakeExchange:
@@ -35,14 +35,7 @@ def view_of(session):
 
 def look(view):
     """Look as a browser does, on an event loop, and wait for what is computed."""
-
-    async def looked():
-        view._responses.look(True)
-        async with asyncio.timeout(30):
-            while tasks := asyncio.all_tasks() - {asyncio.current_task()}:
-                await asyncio.wait(tasks)
-
-    asyncio.run(looked())
+    on_a_loop(view._responses.look, True)
 
 
 def test_nothing_is_computed_while_nobody_looks(view):

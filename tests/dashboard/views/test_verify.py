@@ -21,6 +21,7 @@ from dashboard.figures.verification import (
 from dashboard.session.inputs import GainDefinition
 from dashboard.session.results import Outcome, SolutionSummary, VerifiedSummary
 from dashboard.views.verify import Verify, largest
+from tests.waiting import WAIT, until
 
 
 @pytest.fixture
@@ -45,14 +46,13 @@ def test_nothing_is_checked_that_nobody_looks_at(outcome, summary, monkeypatch):
         await asyncio.sleep(0.05)
         assert asked == []
         checker.look(True)
-        await asyncio.sleep(0.2)
+        await until(lambda: outcome.verified is not None)
         assert asked == [summary("slab-track")]
         outcome.summary = SolutionSummary.of(tig.solve(tig.PRESETS["slab-track"], "exact"), 0.002)
         await asyncio.sleep(0.2)
         assert asked == [summary("slab-track")], "an exact curve has no run to be checked"
         outcome.summary = summary("booted-sleeper")
-        await asyncio.sleep(0.2)
-        assert outcome.verified.summary is summary("booted-sleeper")
+        await until(lambda: outcome.verified.summary is summary("booted-sleeper"))
 
     asyncio.run(session())
 
@@ -62,7 +62,7 @@ def test_only_the_newest_picture_is_checked_next(outcome, summary, monkeypatch):
 
     def slow(shown):
         asked.append(shown)
-        go_on.wait(10)
+        go_on.wait(WAIT)
         return VerifiedSummary(shown, None, "x")
 
     monkeypatch.setattr(checker_module, "check", slow)
@@ -71,16 +71,14 @@ def test_only_the_newest_picture_is_checked_next(outcome, summary, monkeypatch):
         checker = VerificationRunner(outcome)
         checker.look(True)
         outcome.summary = summary("slab-track")
-        while not asked:
-            await asyncio.sleep(0.01)
+        await until(lambda: asked)
         for name in ("booted-sleeper", "booted-block-low-mass", "booted-block-high-mass"):
             outcome.summary = summary(name)
         await asyncio.sleep(0.05)
         go_on.set()
-        while outcome.verified is None or outcome.verified.summary is not outcome.summary:
-            await asyncio.sleep(0.01)
+        await until(lambda: outcome.verified is not None and outcome.verified.summary is outcome.summary)
 
-    asyncio.run(asyncio.wait_for(session(), 20))
+    asyncio.run(session())
     assert asked == [summary("slab-track"), summary("booted-block-high-mass")]
 
 
