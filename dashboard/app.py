@@ -13,7 +13,6 @@ import param
 from bokeh.document import Document
 from panel.io.document import _cleanup_doc
 from panel.io.state import set_curdoc
-from panel.links import Callback
 from panel.util import edit_readonly
 
 from dashboard import theme
@@ -129,12 +128,11 @@ def build(store=None, live_store=None):
     status_place = pn.Column(sizing_mode="stretch_width", min_height=theme.STATUS_HEIGHT, margin=(4, 8, 0, 8))
     bar = partial(DesignBar, inputs, pins, snapshot.steps, browser)
     status = partial(Status, outcome, runner.stop, runner.request)
-    copy = copy_button()
-    in_turns(chain(settle(copy), put(exchange, bar_place, bar)), report_error)
+    in_turns(put(exchange, bar_place, bar), report_error)
     last = chain(put(exchange, status_place, status), notify_of_problems(problems))
     shown = tabs(snapshot, makers, exchange, last)
     controls = Controls(inputs, outcome, shelf, edit_curve, feasibility)
-    return page([bar_place, controls], status_place, shown, [copy, browser, exchange])
+    return page([bar_place, controls], status_place, shown, browser, exchange)
 
 
 def put(exchange, place, make):
@@ -151,16 +149,6 @@ def put(exchange, place, make):
     """
     place.objects = [make()]
     exchange.introduce()
-    yield
-
-
-def settle(button):
-    """Forget what a button does in the browser once the browser was told, as one step.
-
-    While Panel remembers such a button, it walks through the whole page whenever a part of it is added.
-    """
-    if button._models:
-        Callback.registry.pop(button, None)
     yield
 
 
@@ -237,17 +225,16 @@ def notify_of_problems(problems):
         yield
 
 
-def page(sidebar, status, main, ending):
-    """Return the page around sidebar, status line and tabs; its theme is the one that the browser keeps.
-
-    The header ends with a button and the components that have no looks.
-    """
+def page(sidebar, status, main, browser, exchange):
+    """Return the page around sidebar, status line and tabs; its theme is the one that the browser keeps."""
     whole = pmui.Page(
         title=TITLE,
         header=[
             pmui.Typography(SUBTITLE, variant="body1", sx=theme.SUBTITLE, margin=(10, 0, 0, 16)),
             pn.HSpacer(),
-            *ending,
+            copy_button(),
+            browser,
+            exchange,
         ],
         sidebar=sidebar,
         main=[status, main],
