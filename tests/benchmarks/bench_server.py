@@ -7,6 +7,7 @@ sessions and messages.
 """
 
 import asyncio
+import itertools
 import os
 import signal
 import time
@@ -41,6 +42,10 @@ CHURN_TIME = 420
 """Time after which no more sessions come and go [s]."""
 
 
+SEEDS = itertools.count()
+"""A new one for each drag: one that began where the last had ended would move nothing, and get no picture."""
+
+
 def sized(count):
     return max(1, round(count * SCALE))
 
@@ -70,7 +75,7 @@ async def opened(served, count):
 
 async def drag_politely(visitor, waits):
     """Move, and move again when the picture came."""
-    chance, end = np.random.default_rng(id(visitor)), time.monotonic() + SECONDS
+    chance, end = np.random.default_rng(next(SEEDS)), time.monotonic() + SECONDS
     while time.monotonic() < end:
         await visitor.move(round(chance.uniform(10, 40), 2))
         waits.append(await visitor.picture(PATIENCE))
@@ -81,7 +86,7 @@ async def drag_whatever_comes(visitor, waits):
     """Move ten times a second; a wait is from a picture, or the first move after it, to the next picture."""
 
     async def move():
-        chance, end = np.random.default_rng(id(visitor)), time.monotonic() + SECONDS
+        chance, end = np.random.default_rng(next(SEEDS)), time.monotonic() + SECONDS
         while time.monotonic() < end:
             await visitor.move(round(chance.uniform(10, 40), 2))
             await asyncio.sleep(0.1)
