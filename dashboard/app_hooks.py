@@ -12,11 +12,12 @@ from dashboard.app import TITLE, rehearse
 from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
-from dashboard.server import first_page, sessions
+from dashboard.server import first_page, quick_defaults, sessions
 from dashboard.server_log import leave_out_departures, leave_out_empty_places
 
 # the server is made after its hooks are read
 first_page.install()
+quick_defaults.install()
 
 
 def on_server_loaded(server_context):

@@ -18,6 +18,7 @@ import time
 import param
 
 import trackig_core as tig
+from dashboard.compute.document import on_next_tick
 from dashboard.compute.latest import Latest, publish, readable
 from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, compiled
 from dashboard.fields import PHYSICAL
@@ -176,8 +177,20 @@ class Runner(param.Parameterized):
                 await self._draw_exact(design, document)
         finally:
             _abandon(live)
+        taken += await self._until_drawn(document)
         if await self._latest.news_within(max(REST, RESTS * taken)):
             raise _SupersededError
+
+    async def _until_drawn(self, document):
+        """Wait until what was published is drawn, and return how long that took [s]; what is newer ends it.
+
+        Where many sessions draw, it takes longer than the solve, and no hand moves on before it sees the
+        picture.
+        """
+        began, drawn = time.monotonic(), asyncio.get_running_loop().create_future()
+        on_next_tick(document, lambda _: drawn.done() or drawn.set_result(None))
+        await self._look_up(drawn, whatever_is_new=True, seconds=PATIENCE)
+        return time.monotonic() - began
 
     async def _draw_exact(self, design, document):
         """Draw the exact curve of a design, if it has one."""

@@ -5,6 +5,7 @@ has no more to do than the others.
 """
 
 import contextlib
+import select
 import selectors
 import socket
 import threading
@@ -95,13 +96,18 @@ class Acceptor(threading.Thread):
             return False
         except OSError:
             begun = b""
+        is_ours = any(each.startswith(begun) for each in self._questions)
         if not begun:
+            self._close(connection)
+        elif is_ours and _will_say_no_more(connection):
+            # what is left unread would have the connection reset
+            connection.recv(len(begun))
             self._close(connection)
         elif any(
             begun.startswith(each) and begun[len(each) :][:1] in (b" ", b"?") for each in self._questions
         ):
             self._answer(connection, begun.startswith(b"HEAD"))
-        elif not any(each.startswith(begun) for each in self._questions):
+        elif not is_ours:
             _, address = self._silent.pop(connection)
             self._selector.unregister(connection)
             self._hand_on(connection, address)
@@ -126,3 +132,15 @@ class Acceptor(threading.Thread):
         del self._silent[connection]
         self._selector.unregister(connection)
         connection.close()
+
+
+def _will_say_no_more(connection):
+    """Return whether the other side has closed its half, what it sent before being still unread.
+
+    Only Linux tells; elsewhere such a connection counts as silent.
+    """
+    if not hasattr(select, "POLLRDHUP"):
+        return False
+    poll = select.poll()
+    poll.register(connection, select.POLLRDHUP)
+    return bool(poll.poll(0))

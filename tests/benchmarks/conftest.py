@@ -16,6 +16,7 @@ STEPS = 1000
 
 _rows = []
 _remarks = []
+_table = []
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -43,9 +44,30 @@ def tell(transcription, request):
 
 
 @pytest.fixture
-def remark():
-    """Return a function that notes a sentence for the end."""
-    return _remarks.append
+def remark(pytestconfig):
+    """Return a function that says a sentence at once, and again at the end.
+
+    What was measured is not lost where a long benchmark is ended early.
+    """
+    capture = pytestconfig.pluginmanager.getplugin("capturemanager")
+
+    def say(sentence):
+        _remarks.append(sentence)
+        with capture.global_and_fixture_disabled():
+            print(f"\n{sentence}", flush=True)  # noqa: T201
+
+    return say
+
+
+@pytest.fixture
+def row(remark):
+    """Return a function that notes a row of a table in Markdown: what was measured, the figure, the goal."""
+
+    def note(what, figure, goal=""):
+        _table.append(f"| {what} | {figure} | {goal} |")
+        remark(f"{what}: {figure}" + (f" (goal: {goal})" if goal else ""))
+
+    return note
 
 
 def pytest_terminal_summary(terminalreporter):
@@ -56,3 +78,6 @@ def pytest_terminal_summary(terminalreporter):
             terminalreporter.write_line(f"{what:<58}{1000 * seconds:12.3f} ms {ratio:12.1f} x")
     for sentence in _remarks:
         terminalreporter.write_line(sentence)
+    if _table:
+        for line in ("", "| measured | figure | goal |", "|---|---|---|", *_table):
+            terminalreporter.write_line(line)

@@ -182,6 +182,27 @@ def test_while_inputs_move_nothing_but_live_runs_are_solved(make_store, gate, mo
     assert [each for each in gate.solved if each[1] == AT_REST] == [(100, AT_REST), (309, AT_REST)]
 
 
+def test_a_hand_that_waits_for_pictures_of_a_busy_server_is_not_at_rest(make_store, gate, monkeypatch):
+    monkeypatch.setattr(
+        runner_module,
+        "on_next_tick",
+        lambda document, change: asyncio.get_running_loop().call_later(0.4, change, document),
+    )
+    session = Session(make_store(gate.solve))
+    session.do(session.runner.start)
+    shown = shown_pictures(session)
+
+    async def drag():
+        for stiffness in (300, 310, 320):
+            session.inputs.pad_stiffness = stiffness
+            await until(lambda: shown and shown[-1][0] == session.inputs.pad_stiffness)
+            await asyncio.sleep(0.5)
+        await until(lambda: session.outcome.summary.solution.fidelity == AT_REST)
+
+    asyncio.run(drag())
+    assert shown == [(300, MOVING), (310, MOVING), (320, MOVING), (320, AT_REST)]
+
+
 def test_while_one_live_run_lasts_only_the_newest_change_waits(make_store, live_gate):
     session = Session(make_store(live_gate.solve))
     session.do(session.runner.start)

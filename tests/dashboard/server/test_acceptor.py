@@ -1,5 +1,6 @@
 """Connections are handed on once they ask for something; health is answered whatever the server does."""
 
+import select
 import socket
 import time
 
@@ -88,6 +89,16 @@ def test_a_question_that_comes_in_pieces_is_waited_for(door):
         assert opened.handed_on == []
         knocking.sendall(b"/health HTTP/1.1\r\n\r\n")
         assert knocking.recv(4096).startswith(b"HTTP/1.1 200")
+
+
+@pytest.mark.skipif(not hasattr(select, "POLLRDHUP"), reason="only Linux tells of half-closed connections")
+def test_a_question_that_will_never_be_whole_is_closed_at_once(door, monkeypatch):
+    monkeypatch.setattr(module, "LONGEST_SILENCE", 1000)
+    opened = door()
+    with opened.knock(b"GET /to") as knocking:
+        knocking.shutdown(socket.SHUT_WR)
+        assert knocking.recv(1) == b""
+    assert opened.handed_on == []
 
 
 def test_who_says_nothing_is_closed_after_a_while(door, monkeypatch):

@@ -31,7 +31,7 @@ def rest(connection):
     return b"".join(parts)
 
 
-@pytest.mark.parametrize("begun", [b"", b"GET " + PAGE + b" HTTP/1.1\r\nHost: here\r\n"])
+@pytest.mark.parametrize("begun", [b"", b"GET /to", b"GET " + PAGE + b" HTTP/1.1\r\nHost: here\r\n"])
 def test_a_request_that_stops_half_way_is_hung_up_on(served, begun):
     with connect(served) as connection:
         connection.sendall(begun)

@@ -1,0 +1,72 @@
+"""Defaults of models are what Bokeh finds, themes and changeable ones included, and are looked up once."""
+
+import re
+
+import pytest
+from bokeh.core.has_props import HasProps
+from bokeh.core.property.bases import ParameterizedProperty
+from bokeh.core.property.descriptors import PropertyDescriptor
+from bokeh.models import ColumnDataSource, LinearAxis, Model, Plot
+
+from dashboard.server import quick_defaults
+
+REPLACED = (
+    (HasProps, "_overridden_defaults"),
+    (HasProps, "themed_values"),
+    (PropertyDescriptor, "is_unstable"),
+    (ParameterizedProperty, "_may_have_unstable_default"),
+)
+
+
+@pytest.fixture
+def install(monkeypatch):
+    """Return what installs the shortcuts; Bokeh's own way is back after the test."""
+    for owner, name in REPLACED:
+        monkeypatch.setattr(owner, name, owner.__dict__[name])
+    return quick_defaults.install
+
+
+def defaults(kind):
+    """Return each property's default, and whether it may change, of a kind of models."""
+    made = kind()
+    found = {name: kind.lookup(name) for name in kind.properties() - {"id"}}
+    return {
+        name: (without_identity(repr(each.class_default(kind))), each.has_unstable_default(made))
+        for name, each in found.items()
+    }
+
+
+def without_identity(text):
+    return re.sub(r"id=[^,)]+|0x[0-9a-f]+", "", text)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_defaults_of_all_models_are_what_bokeh_finds(install):
+    kinds = [
+        each for each in Model.model_class_reverse_map.values() if each.__module__.startswith("bokeh.models")
+    ]
+    before = [defaults(each) for each in kinds]
+    install()
+    assert len(kinds) > 200
+    for kind, expected in zip(kinds, before, strict=True):
+        # the second answer comes from what was noted at the first
+        assert defaults(kind) == defaults(kind) == expected, kind
+
+
+def test_models_share_no_default_that_may_change(install):
+    install()
+    one, other = ColumnDataSource(), ColumnDataSource()
+    one.data["x"] = [1.0]
+    assert dict(other.data) == {}
+    assert Plot().x_range is not Plot().x_range
+
+
+def test_a_theme_comes_and_goes(install):
+    install()
+    axis, plain = LinearAxis(), LinearAxis().axis_label_text_font_size
+    axis.apply_theme({"axis_label_text_font_size": "31px"})
+    assert axis.axis_label_text_font_size == "31px"
+    assert LinearAxis().axis_label_text_font_size == plain
+    axis.unapply_theme()
+    axis.apply_theme({})
+    assert axis.axis_label_text_font_size == plain
