@@ -1,7 +1,6 @@
 """From inputs to outcome: newest first, one at a time, the last good picture kept."""
 
 import asyncio
-import itertools
 import threading
 import time
 from concurrent.futures import Future
@@ -12,7 +11,6 @@ import pytest
 
 import trackig_core as tig
 from dashboard.compute import runner as runner_module
-from dashboard.compute import store as store_module
 from dashboard.compute.latest import readable
 from dashboard.compute.runner import EXACT_ALL_THE_SAME, STOPPED_EXACT, STOPPED_LIVE, Runner
 from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, solve_summary
