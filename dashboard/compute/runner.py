@@ -189,7 +189,7 @@ class Runner(param.Parameterized):
         """
         began, drawn = time.monotonic(), asyncio.get_running_loop().create_future()
         on_next_tick(document, lambda _: drawn.done() or drawn.set_result(None))
-        await self._look_up(drawn, whatever_is_new=True, seconds=PATIENCE)
+        await self._latest.done_or_news(drawn, PATIENCE)
         return time.monotonic() - began
 
     async def _draw_exact(self, design, document):
