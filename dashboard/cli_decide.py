@@ -9,6 +9,7 @@ Exit codes are those of :mod:`dashboard.cli`: 1 when nothing complies.
 
 import argparse
 import csv
+import datetime
 import io
 import json
 import signal
@@ -20,6 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import trackig_core as tig
+from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.solver import FIDELITIES
 from trackig_core.track.fields import SLIDER_RANGES
@@ -91,7 +93,9 @@ def _command(commands, shell, name, asked, **words):
         metavar="M",
         help="greatest rail deflection [m], in place of the specification's own",
     )
-    command.add_argument("--csv", type=Path, metavar="FILE", help="write all figures as CSV, in SI")
+    command.add_argument(
+        "--csv", type=Path, metavar="FILE", help="write all figures as CSV, in SI, to six figures"
+    )
     command.add_argument("--json", type=Path, metavar="FILE", help="write question and answer as JSON, in SI")
     command.add_argument("--force", action="store_true", help="write over files that exist")
     return command
@@ -333,7 +337,8 @@ def _run(shell, asked, options):
 
 
 def _answer(shell, kind, settings, options):
-    # slow to load, and no other command needs it
+    # slow to load, and no other command needs them
+    from dashboard.persistence.exports import answer_csv
     from trackig_core.decide import Answer, Question
 
     study = shell.open_study(options.study)
@@ -353,13 +358,15 @@ def _answer(shell, kind, settings, options):
     )
     with watched(options.scheduler) as how:
         result = question.ask(**how)
-    table = result.to_dataframe()
+    table, answer = result.to_dataframe(), Answer.of(question, result)
     if STANDARD_OUTPUT not in (options.csv, options.json):
         sys.stdout.write(_text(result, table))
     if options.csv is not None:
-        shell.write(options.csv, table.to_csv(index=False, lineterminator="\n"))
+        name = current_name(study) if options.design is None else options.design
+        heading = Heading.of_question(study, question, name, datetime.date.today())
+        shell.write(options.csv, answer_csv(answer, result, heading))
     if options.json is not None:
-        shell.write(options.json, _json(Answer.of(question, result), table))
+        shell.write(options.json, _json(answer, table))
     if getattr(result, "stopped", False):
         return STOPPED
     return 0 if _anything_complies(result) else FAILED
@@ -612,13 +619,13 @@ def _products(path):
 
 
 def _table(path):
-    """Return the columns of a CSV file with a header."""
+    """Return the columns of a CSV file with a header; lines that begin with # are comments."""
     with path.open("rb") as file:
         data = file.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:
         raise DecideError(f"{path}: the file is larger than {MOST_BYTES // 10**6} MB")
     rows = list(csv.reader(io.StringIO(data.decode("utf-8-sig", errors="replace"))))
-    rows = [row for row in rows if any(cell.strip() for cell in row)]
+    rows = [row for row in rows if any(cell.strip() for cell in row) and not row[0].startswith("#")]
     if len(rows) < 2:
         raise DecideError(f"{path}: give a header of fields and one row or more")
     header = [cell.strip() for cell in rows[0]]
