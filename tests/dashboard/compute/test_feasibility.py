@@ -57,6 +57,17 @@ def test_sliders_follow_inputs_without_any_solution(page):
     assert (page.panel.feasible, page.panel.stale) == ({}, False)
 
 
+def test_static_stiffness_is_asked_about_only_where_deflection_is_limited(page):
+    asked = []
+    page.feasibility.param.watch(lambda event: asked.append(event.new.design), "asked")
+    page.do(specification=tig.Specification([(63, -4.0)]))
+    page.do(pad_static_stiffness=80.0)
+    page.do(specification=LIMITS)
+    page.do(pad_static_stiffness=90.0)
+    stated = [BLOCK.replace(pad_static_stiffness=each) for each in (80e6, 90e6)]
+    assert list(dict.fromkeys(asked)) == [BLOCK, *stated]
+
+
 def test_what_is_of_an_earlier_design_is_marked_until_the_answer_is_there(page):
     page.do(specification=LIMITS)
     stale = []
