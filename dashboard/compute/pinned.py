@@ -14,7 +14,7 @@ import param
 from dashboard.compute.document import one_message
 from dashboard.compute.latest import Latest, readable
 from dashboard.compute.runner import LOOK_EVERY
-from dashboard.compute.workers import AT_REST
+from dashboard.compute.workers import AT_REST, key_of
 
 NOTHING = MappingProxyType({})
 
@@ -56,9 +56,9 @@ class PinnedSummaries(param.Parameterized):
     def _take_what_is_kept(self, *_):
         summaries, problems = self._of_pinned(self.summaries), self._of_pinned(self.problems)
         for pin in self._missing():
-            kept = self._store.kept((pin.design, AT_REST))
+            kept = self._store.kept(key_of(pin.design, AT_REST))
             if kept is not None:
-                summaries[pin.key] = kept
+                summaries[pin.key] = kept.of_design(pin.design)
         if summaries != self.summaries or problems != self.problems:
             self.param.update(summaries=MappingProxyType(summaries), problems=MappingProxyType(problems))
 
@@ -85,14 +85,14 @@ class PinnedSummaries(param.Parameterized):
 
     async def _obtain(self, pin):
         """Return the picture of a pin, or None if it was removed meanwhile."""
-        job = self._store.request((pin.design, AT_REST), owner=self)
+        job = self._store.request(key_of(pin.design, AT_REST), owner=self)
         try:
             future = asyncio.wrap_future(job.future)
             # an abandoned job may still raise; nobody is left to hear it
             future.add_done_callback(lambda done: done.cancelled() or done.exception())
             while self._wanted(pin) and not future.done():
                 await asyncio.wait({future}, timeout=LOOK_EVERY)
-            return future.result() if future.done() else None
+            return future.result().of_design(pin.design) if future.done() else None
         finally:
             self._store.release(job)
 

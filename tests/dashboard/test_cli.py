@@ -200,6 +200,20 @@ def test_check_tells_each_verdict_and_whether_all_comply(save, capsys, specifica
         assert line.startswith(f"    rail deflection at least {sinks:.2f} mm, seat load ")
 
 
+def test_check_of_a_limit_of_deflection_alone_follows_the_static_stiffness(save, capsys):
+    stiff = BLOCK.replace(pad_static_stiffness=80e6, boot_static_stiffness=14e6)
+    sinks = [tig.static_response(each).rail_deflection for each in (BLOCK, stiff)]
+    assert sinks[0] < sinks[1], "a static stiffness below the dynamic one lets the rail sink further"
+    between = tig.Specification([], rail_deflection_limit=sum(sinks) / 2)
+    assert main(["check", save(specification=between), "--fidelity", "exact"]) == 0
+    assert "This design: complies; rail deflection" in capsys.readouterr().out
+    pinned = [tig.PinnedDesign("As stated", stiff)]
+    assert main(["check", save(specification=between, pinned=pinned), "--fidelity", "exact"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[2].startswith("As stated: fails; rail deflection")
+    assert f"rail deflection {1e3 * sinks[1]:.2f} mm" in lines[3]
+
+
 def test_only_designs_that_are_shown_are_checked(save, capsys):
     slab = tig.PRESETS["slab-track"]
     levels = [tig.solve(design, "exact").insertion_gain[15] for design in (BLOCK, slab)]
