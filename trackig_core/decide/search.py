@@ -386,7 +386,8 @@ def _made(name: str, given: Any) -> Any:
             keys = ", ".join(each.name for each in dataclasses.fields(Rail))
             raise ValueError(f"rail {brief(dict(given))}: give {keys}") from None
     if isinstance(given, list | tuple):
-        return LossFactorCurve(given) if name.endswith("loss_factor") else StiffnessCurve(given)
+        rows: Any = given  # the curve checks them
+        return LossFactorCurve(rows) if name.endswith("loss_factor") else StiffnessCurve(rows)
     return given
 
 
