@@ -502,7 +502,7 @@ class CloudFigure:
         shown = np.append(levels[found.front if found.front.size else [found.closest]], limit)
         _fit(self.gains.y_range, shown[np.isfinite(shown)])
         self.fields.xaxis.ticker = FixedTicker(ticks=axis)
-        self.fields.xaxis.major_label_overrides = dict(zip(axis, labels, strict=True))
+        self.fields.xaxis.major_label_overrides = dict(zip(axis, _staggered(labels), strict=True))
         self.limit.data = BANDS | {"limit": limit}
         self._selected(None, None, [])
 
@@ -553,6 +553,17 @@ def _drawn_rows(found):
     room = max(0, MOST_DRAWN - found.front.size)
     every = max(1, -(-rest.size // max(room, 1)))
     return np.concatenate([rest[::every], found.front]).astype(int)
+
+
+def _staggered(labels):
+    """Return labels of two lines, every other one below its neighbours, where several would run together."""
+    if len(labels) <= MOST_IN_A_ROW:
+        return list(labels)
+    return [f"\n\n{label}" if place % 2 else label for place, label in enumerate(labels)]
+
+
+MOST_IN_A_ROW = 3
+"""Labels that stand beside each other in a picture of half a page [-]."""
 
 
 def _places_by_name(names):

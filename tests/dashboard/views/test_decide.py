@@ -330,7 +330,7 @@ def test_a_search_chooses_from_the_catalogue_within_a_deflection(session):
     found = tig.decide.Question("find", BLOCK, settings, specification=LIMITS).ask()
     session.do(view.show, found)
     ticks = view.cloud.fields.xaxis.major_label_overrides
-    assert [label.partition("\n")[0] for label in ticks.values()] == [
+    assert [label.strip().partition("\n")[0] for label in ticks.values()] == [
         "Pad stiffness",
         "Pad loss factor",
         "Boot stiffness",
