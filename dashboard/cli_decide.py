@@ -24,6 +24,7 @@ import trackig_core as tig
 from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.solver import FIDELITIES
+from trackig_core.study.catalogue import KINDS
 from trackig_core.track.fields import SLIDER_RANGES
 
 FAILED, STOPPED = 1, 130
@@ -202,7 +203,7 @@ def _add_find(commands, shell):
         lambda options: _asked(
             "find",
             free=dict(options.free),
-            choices=_choices(options),
+            choices=_choices(shell, options),
             objectives=options.objectives,
             cost=dict(options.costs),
             population=options.population,
@@ -226,6 +227,17 @@ def _add_find(commands, shell):
         default=[],
         metavar="FILE.csv",
         help="a catalogue: one product a row, fields [SI] and cost in columns; may be given again",
+    )
+    command.add_argument(
+        "--component",
+        action="append",
+        choices=KINDS,
+        default=[],
+        dest="components",
+        help="choose from the catalogue's components of this kind; may be given again",
+    )
+    command.add_argument(
+        "--catalogue", type=Path, metavar="FILE.toml", help="that catalogue, in place of the bundled one"
     )
     command.add_argument("--rails", metavar="NAME,NAME", help="rails to choose from, such as 54E1,60E1")
     command.add_argument(
@@ -604,12 +616,31 @@ def _specimens(options):
     return None if options.production is None else _table(options.production)
 
 
-def _choices(options):
-    """Return what is chosen from catalogues and rails."""
+def _choices(shell, options):
+    """Return what is chosen from tables of products, a catalogue and rails."""
     choices = {path.stem: _products(path) for path in options.choose}
+    if options.catalogue is not None and not options.components:
+        raise DecideError(f"--catalogue: name with --component what is chosen: {', '.join(KINDS)}")
+    if options.components:
+        design = _design(shell.open_study(options.study), options.design)
+        catalogue = _catalogue(options.catalogue)
+        choices |= {
+            kind: [each.choice(design) for each in catalogue.of_kind(kind).values()]
+            for kind in options.components
+        }
     if options.rails is not None:
         choices["rail"] = options.rails.split(",")
     return choices
+
+
+def _catalogue(path):
+    """Return the catalogue of a file, or the bundled one."""
+    if path is None:
+        return tig.study.bundled_catalogue()
+    try:
+        return tig.study.Catalogue.from_toml(_read(path))
+    except tig.StudyError as error:
+        raise DecideError(f"{path}: {error}") from None
 
 
 def _products(path):
@@ -618,13 +649,18 @@ def _products(path):
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
-def _table(path):
-    """Return the columns of a CSV file with a header; lines that begin with # are comments."""
+def _read(path):
+    """Return what a file holds (bytes)."""
     with path.open("rb") as file:
         data = file.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:
         raise DecideError(f"{path}: the file is larger than {MOST_BYTES // 10**6} MB")
-    rows = list(csv.reader(io.StringIO(data.decode("utf-8-sig", errors="replace"))))
+    return data
+
+
+def _table(path):
+    """Return the columns of a CSV file with a header; lines that begin with # are comments."""
+    rows = list(csv.reader(io.StringIO(_read(path).decode("utf-8-sig", errors="replace"))))
     rows = [row for row in rows if any(cell.strip() for cell in row) and not row[0].startswith("#")]
     if len(rows) < 2:
         raise DecideError(f"{path}: give a header of fields and one row or more")

@@ -16,6 +16,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.cli import main
+from tests.core.decide.test_search import CATALOGUE
 from tests.waiting import WAIT
 
 ROOT = Path(__file__).parent.parent.parent
@@ -146,6 +147,27 @@ def test_find_takes_catalogues_and_rails(save, tmp_path, capsys):
         expected = price[row["boot_stiffness"]] + 0.1 * float(row["block_mass"])
         assert float(row["cost"]) == pytest.approx(expected, rel=1e-5)
     assert "designs comply, and no other beats" in capsys.readouterr().out
+
+
+def test_find_takes_measured_components_of_a_catalogue(save, tmp_path, capsys):
+    catalogue, out = tmp_path / "own.toml", tmp_path / "cloud.csv"
+    catalogue.write_text(CATALOGUE.to_toml(), encoding="utf-8")
+    words = ["find", save(), "--free", "block_mass=20..100", "--catalogue", str(catalogue)]
+    asked = [*words, "--component", "pad", "--component", "rail", "--population", "8", "--generations", "2"]
+    assert main([*asked, "--csv", str(out)]) in (0, 1)
+    choices = {
+        kind: [each.choice(BLOCK) for each in CATALOGUE.of_kind(kind).values()] for kind in ("pad", "rail")
+    }
+    free = {"block_mass": (20, 100)}
+    expected = tig.decide.find(BLOCK, CEILING, free, choices=choices, population=8, generations=2)
+    rows = table(out)
+    assert [row["pad"] for row in rows] == list(expected.chosen["pad"])
+    assert [float(row["slack"]) for row in rows] == expected.slack.tolist()
+    said = capsys.readouterr().out
+    assert said.endswith(f"\n{expected}\n")
+    assert expected.chosen["pad"][expected.closest] in said
+    assert main(words) == 2
+    assert "--catalogue: name with --component" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
