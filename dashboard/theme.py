@@ -524,6 +524,10 @@ WARNING_CSS = f"""
 """
 
 PROSE_WIDTH = 900
+WORDS_CSS = """
+:host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
+p { margin: 0; line-height: 1.5; }
+"""
 PROSE_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); font-size: 16px; }
 p, li { line-height: 1.55; }

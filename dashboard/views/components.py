@@ -28,14 +28,20 @@ class QuickSlider(pmui.FloatSlider):
     _priority_changes: ClassVar[list[str]] = ["value"]
 
 
-SHRINKS = {"flex": "0 1 auto", "min-width": "0", "max-width": "100%"}
-"""What takes the room that its words need, and wraps them where there is less."""
-
-
 def caption(title, words):
     """Return a panel's heading."""
     text = f"<h2>{html.escape(title)}</h2><p>{html.escape(words)}</p>"
     return pn.pane.HTML(text, stylesheets=[theme.CAPTION_CSS], styles=SHRINKS, margin=(4, 0, 0, 12))
+
+
+def words(text="", size=16, weight=400, **place):
+    """Return words that may change at any time (Markdown).
+
+    Material's own text reads them when it is drawn and listens a moment later: a change between is lost.
+    """
+    place = {"margin": (2, 14, 10, 14), "sizing_mode": "stretch_width"} | place
+    styles = {"font-size": f"{size}px", "font-weight": f"{weight}"}
+    return pn.pane.Markdown(text, stylesheets=[theme.WORDS_CSS], styles=styles, **place)
 
 
 def panel(*objects, name=None):

@@ -14,7 +14,7 @@ from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.session.bands import bands_text
 from dashboard.session.production import Production
-from dashboard.views.components import bokeh_pane, caption, gain_axis, panel
+from dashboard.views.components import bokeh_pane, caption, gain_axis, panel, words
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.tab import Tab
 from dashboard.views.verdict import ShortVerdict
@@ -63,8 +63,8 @@ class Explore(Tab):
             on_click=lambda _: pins.param.update(alone=False),
             margin=(0, 12, 0, 0),
         )
-        self.reference_words = pmui.Typography("", variant="body2", visible=False, margin=(0, 14, 4, 14))
-        self.bands_words = pmui.Typography("", variant="body2", visible=False, margin=(0, 14, 4, 14))
+        self.reference_words = words(size=14, visible=False, margin=(0, 14, 4, 14))
+        self.bands_words = words(size=14, visible=False, margin=(0, 14, 4, 14))
         self.choices = [
             pn.widgets.Select.from_param(
                 parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[theme.SELECT_CSS]

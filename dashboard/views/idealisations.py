@@ -9,7 +9,7 @@ from dashboard import formats, theme
 from dashboard.compute.document import NextTick
 from dashboard.compute.idealisations import Idealisations
 from dashboard.figures.idealisations import LOOKS, IdealisationFigure
-from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis, words
 
 CHOICES = {words[0].upper() + words[1:]: name for name, (_, _, words) in LOOKS.items()}
 """What may be drawn beside the solution, by its words."""
@@ -46,7 +46,7 @@ class IdealisationsView(Viewer):
             margin=(0, 12, 0, 12),
             stylesheets=[theme.SELECT_CSS],
         )
-        self.words = pmui.Typography("", variant="body1", margin=(2, 14, 10, 14))
+        self.words = words()
         show = NextTick(self._show)
         self.chosen.param.watch(show, "value")
         self.idealisations.param.watch(show, "found")

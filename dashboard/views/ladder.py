@@ -3,14 +3,13 @@
 import html
 
 import panel as pn
-import panel_material_ui as pmui
 
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.figures.ladder import RUNGS, DifferencesFigure, LadderFigure, every_model
 from dashboard.teaching import left_out
-from dashboard.views.components import bokeh_pane
-from dashboard.views.subjects import Subject, panel_of, say, words
+from dashboard.views.components import bokeh_pane, words
+from dashboard.views.subjects import Subject, panel_of, say
 
 HEADINGS = ("Model", "Numbers from", "Moves most", "In band")
 
@@ -25,7 +24,7 @@ class LeftOut(Subject):
         self.figure, self.differences, self.words = LadderFigure(), DifferencesFigure(), words()
         self.vehicle = _choice("Vehicle put back", tig.VEHICLES, left_out.OPENING_VEHICLE)
         self.ground = _choice("Ground put back", tig.GROUNDS, left_out.OPENING_GROUND)
-        self.own = pmui.Typography("", variant="body2", margin=(0, 14))
+        self.own = words(size=14, margin=(0, 14))
         self.table = pn.pane.HTML("", stylesheets=[theme.SLOPES_CSS], margin=(0, 14))
         for choice in (self.vehicle, self.ground):
             choice.param.watch(self._follow, "value")

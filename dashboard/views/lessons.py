@@ -12,7 +12,7 @@ import trackig_core as tig
 from dashboard import theme
 from dashboard.figures.learn import BandsFigure, Curve
 from dashboard.teaching.lessons import load_lessons, reveal, set_sliders
-from dashboard.views.components import bokeh_pane, gain_axis
+from dashboard.views.components import bokeh_pane, gain_axis, words
 from dashboard.views.subjects import Subject, panel_of
 
 NO_HTML = {"html": False}
@@ -62,7 +62,7 @@ class Lessons(Subject):
         self.introduction, self.revealed = _text(), _text()
         self.begin = pmui.Button(label="Set where it starts", variant="outlined", on_click=self._begin)
         self.change = pmui.Button(label="Move the slider for me", variant="outlined", on_click=self._change)
-        self.asked = pmui.Typography("", variant="subtitle1", margin=(6, 14, 0, 14))
+        self.asked = words(weight=500, margin=(6, 14, 0, 14))
         self.answers = Answers(options=["…"], margin=(0, 14))
         self.reveal = pmui.Button(label="Reveal", variant="contained", on_click=self._reveal)
         self.verdict = pmui.Alert(

@@ -15,8 +15,8 @@ from dashboard.figures.axes import BAND_AXIS
 from dashboard.figures.learn import PickFigure
 from dashboard.figures.motion import FilmPlayer, ShapePlayer
 from dashboard.teaching import explanations
-from dashboard.views.components import QuickSlider, bokeh_pane, gain_axis
-from dashboard.views.subjects import Subject, panel_of, words
+from dashboard.views.components import QuickSlider, bokeh_pane, gain_axis, words
+from dashboard.views.subjects import Subject, panel_of
 
 STEPS_PER_DECADE = 100
 """Steps of the frequency's slider from a value to its tenfold."""

@@ -12,6 +12,7 @@ from dashboard.client.exchange import notify
 from dashboard.figures.swatches import swatch_svg
 from dashboard.session.inputs import values_of
 from dashboard.session.pins import PinError
+from dashboard.views.components import words
 from trackig_core.names import LONGEST_NAME
 
 COLOURS = {name: number for number, name in enumerate(theme.DESIGN_COLOUR_NAMES)}
@@ -114,7 +115,7 @@ class PinList(Viewer):
         super().__init__()
         self._inputs, self._pins = inputs, pins
         self.rows = {}
-        self.nothing = pmui.Typography(NOTHING_YET, variant="body1", margin=(4, 12))
+        self.nothing = words(NOTHING_YET, margin=(4, 12))
         self._column = pmui.Column(sizing_mode="stretch_width", margin=(0, 0, 6, 0))
         pins.param.watch(self._show, "pinned")
         self._show()

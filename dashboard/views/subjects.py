@@ -23,7 +23,7 @@ from dashboard.figures.learn import (
 from dashboard.figures.verification import DampingFigure
 from dashboard.session.inputs import DesignInputs
 from dashboard.teaching import explanations
-from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis, words
 
 HALF = {"xs": 12, "lg": 6}
 
@@ -93,11 +93,6 @@ class Subject(Viewer):
     def gain_arguments(self, design):
         """Return which insertion gain is shown of a design, as arguments of an explanation."""
         return self.definition.reference_of(design), self.definition.summation
-
-
-def words(*_):
-    """Return an empty text below a figure."""
-    return pmui.Typography("", variant="body1", margin=(2, 14, 10, 14))
 
 
 def say(text, sentences):

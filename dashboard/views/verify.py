@@ -19,7 +19,7 @@ from dashboard.figures.verification import (
     ReceptanceFigure,
     TimeStepFigure,
 )
-from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis, words
 from dashboard.views.idealisations import IdealisationsView
 from dashboard.views.tab import Tab
 
@@ -73,10 +73,7 @@ class Verify(Tab):
             self.loss_factor,
         )
         self.panes = [bokeh_pane(figure.model) for figure in figures]
-        self.words = {
-            key: pmui.Typography("", variant="body1", margin=(2, 14, 10, 14))
-            for key in ("run", "peer", "convergence", "damping")
-        }
+        self.words = {key: words() for key in ("run", "peer", "convergence", "damping")}
         self.peer = pn.widgets.Select(
             label="Compared track of Table 1",
             options={PRESET_LABELS.get(key, key): key for key in tig.peer_receptances()},

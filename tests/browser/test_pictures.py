@@ -168,7 +168,7 @@ EVERYTHING = tig.PRESETS["booted-block-low-mass"].replace(
 
 
 @pytest.mark.parametrize("bands", ["one-third-octave", "wide one-third-octave"])
-def test_a_data_sheet_with_everything_on_prints_on_one_page(reader, bands):
+def test_a_data_sheet_with_everything_on_prints_on_one_page(chromium, bands):
     every = list(map(float, tig.BAND_LABELS))
     measured = [
         tig.MeasuredGain([(band, -100.0) for band in every], name=f"{TITLE}{number}") for number in range(4)
@@ -197,7 +197,7 @@ def test_a_data_sheet_with_everything_on_prints_on_one_page(reader, bands):
     heading = Heading.of(study, [result], datetime.date(2026, 9, 30))
     sheet = data_sheet(result, heading, study.specification, study.source, measured)
     assert len(result.summary.solution.notes) > 1
-    page = reader.open_at_once()
+    page = chromium.new_context().new_page()
     assert pages(page, sheet.encode()) == 1
     page.set_content(sheet)
     page.emulate_media(media="print")

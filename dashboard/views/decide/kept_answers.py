@@ -15,6 +15,7 @@ from dashboard.compute.document import NextTick
 from dashboard.compute.inquiries import Inquiry, InquiryRunner
 from dashboard.compute.workers import workers
 from dashboard.session.answers import TITLES, settings_texts
+from dashboard.views.components import words
 from trackig_core.decide.versions import versions
 
 
@@ -139,7 +140,7 @@ class KeptAnswers(Viewer):
 
 def nothing_yet():
     """Return what stands in the place of answers while there are none."""
-    return pmui.Typography(NOTHING_YET, variant="body1", margin=(4, 12, 10, 12))
+    return words(NOTHING_YET, margin=(4, 12, 10, 12))
 
 
 NOTHING_YET = "Nothing is kept yet: “Keep the answer” stands below each."
