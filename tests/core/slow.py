@@ -13,7 +13,8 @@ def run_ring(design, pad, boot, bays, per_bay, time_step, steps, *, step=1e-4, f
     """Return support forces (steps, bays) [N], and the final rail, block and wheel displacements [m].
 
     ``pad`` and ``boot`` are relaxation laws, ``boot`` None when single-stage. A list ``frames`` takes wheels,
-    rail, blocks and, of what is more than the simplified model, feet in one row as they stand at each step. ``rough_wheel`` is the only one that meets the
+    rail, blocks and, of what is more than the simplified model, feet
+    in one row as they stand at each step. ``rough_wheel`` is the only one that meets the
     step.
     """
     if design.simplified != design:

@@ -1,7 +1,8 @@
 """The film: how rail, blocks, feet and wheels move after the step, from a run of its own.
 
 A run as at live fidelity (see :mod:`trackig_core.time_domain.adaptive_grid`), short, that records every
-rail element, every block and, where the ground yields, every foot near the wheel. Frames are samples of the low-passed displacements, SI units,
+rail element, every block and, where the ground yields, every foot near the wheel. Frames are samples of the
+low-passed displacements, SI units,
 positive towards the ground; the track to the left of one wheel is the mirror image of that to the right. The
 step reaches several wheels each with its delay, or all at once where their roughness is independent.
 The wheel begins one step below a rail at rest, squeezing the contact spring (see
