@@ -116,7 +116,7 @@ def build(store=None, live_store=None):
         Explore: partial(Explore, outcome, definition, pins, assessment, production),
         Compare: partial(Compare, inputs, pins, definition, assessment, show_insertion_gain, exchange),
         SpecificationView: partial(SpecificationView, assessment, exchange),
-        Decide: partial(Decide, snapshot, exchange, feasibility, production),
+        Decide: partial(Decide, snapshot, exchange, feasibility, production, shelf),
         ReceivedLevel: partial(ReceivedLevel, assessment, pins, exchange),
         Track: show_track,
         Learn: partial(Learn, inputs, outcome, definition),

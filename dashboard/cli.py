@@ -8,11 +8,9 @@ Nothing here computes; what is printed comes from the core, as anybody's script 
 """
 
 import argparse
-import csv
 import dataclasses
 import datetime
 import difflib
-import io
 import json
 import os
 import sys
@@ -23,8 +21,9 @@ import trackig_core as tig
 from dashboard import cli_decide, formats
 from dashboard.server.command import ServeError, add_arguments, serve
 from dashboard.session.bands import WIDE, bands_text, gain_in
-from dashboard.session.pins import base_design, shown_designs
-from dashboard.session.results import SolutionSummary
+from dashboard.session.heading import Heading
+from dashboard.session.pins import base_design, current_design, shown_designs
+from dashboard.session.results import DesignResult, SolutionSummary
 from trackig_core.bands import BANDS
 from trackig_core.levels import band_tables
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, reference_for
@@ -183,13 +182,16 @@ def _add_solve(commands):
         "frequency-domain solution",
     )
     command.add_argument(
-        "--csv", type=Path, metavar="FILE", help="write the bands [Hz, dB] as CSV, - for standard output"
+        "--csv",
+        type=Path,
+        metavar="FILE",
+        help="write the bands [Hz, dB] as CSV, to four decimals, - for standard output",
     )
     command.add_argument(
         "--json",
         type=Path,
         metavar="FILE",
-        help="write design and results as JSON, in SI, - for standard output",
+        help="write design and results as JSON, in SI and in full, - for standard output",
     )
     _add_force(command)
 
@@ -281,9 +283,9 @@ def _solve(options):
         raise CommandError("--csv - --json -: standard output takes one of them")
     for path in outputs:
         _refuse_to_lose(path, options.force, options.track)
-    design, view, load = _track(options.track)
-    load = _load(load, options)
-    changed = design.replace(**dict(map(_change, options.changes)))
+    study = _track(options.track)
+    view, load = study.view, _load(study.load, options)
+    changed = study.design.replace(**dict(map(_change, options.changes)))
     solution = tig.solve(
         changed,
         options.fidelity,
@@ -297,7 +299,7 @@ def _solve(options):
     if STANDARD_OUTPUT not in outputs:
         sys.stdout.write(_solution_text(solution, gain, notes, statics))
     if options.csv is not None:
-        _write(options.csv, _solution_csv(gain))
+        _write(options.csv, _solution_csv(study, solution, gain, bands, statics))
     if options.json is not None:
         _write(options.json, _solution_json(solution, gain, notes, statics))
     return 0
@@ -317,16 +319,15 @@ def _load(load, options):
 
 
 def _track(name):
-    """Return the design, the view and the standing load that a preset's name or a study's path stands for."""
+    """Return the study that a preset's name or a study's path stands for."""
     if name in tig.PRESETS:
-        return tig.PRESETS[name], tig.View(), tig.study.StaticLoad()
+        return tig.Study(tig.PRESETS[name], preset=name)
     path = Path(name)
     if not path.exists():
         near = difflib.get_close_matches(name, tig.PRESETS, n=1)
         hint = f"did you mean {near[0]}?" if near else f"presets are {', '.join(tig.PRESETS)}"
         raise CommandError(f"{name}: no preset and no file; {hint}")
-    opened = _open_study(path)
-    return opened.design, opened.view, opened.load
+    return _open_study(path)
 
 
 def _change(text):
@@ -499,12 +500,21 @@ def _solution_text(solution, gain, notes, statics):
     return "\n".join(lines) + "\n"
 
 
-def _solution_csv(gain):
-    file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["frequency_hz", "insertion_gain_db"])
-    writer.writerows(zip(gain.bands.labels, map(float, gain.levels), strict=True))
-    return file.getvalue()
+def _solution_csv(study, solution, gain, bands, statics):
+    """Return the bands as the dashboard saves them, of a study's current design as it was changed."""
+    # slow to load, and nobody waits for it who writes no table
+    from dashboard.persistence.exports import gain_csv
+
+    view = dataclasses.replace(study.view, reference=gain.reference, summation=gain.summation, bands=bands)
+    study = dataclasses.replace(study, design=solution.design, view=view)
+    result = DesignResult(
+        current_design(study.design),
+        SolutionSummary.of(solution, 0.0),
+        solution.gain,
+        statics=statics,
+        gain_shown=gain,
+    )
+    return gain_csv([result], Heading.of(study, [result], datetime.date.today()), study.measured)
 
 
 def _solution_json(solution, gain, notes, statics):

@@ -9,6 +9,7 @@ Exit codes are those of :mod:`dashboard.cli`: 1 when nothing complies.
 
 import argparse
 import csv
+import datetime
 import io
 import json
 import signal
@@ -20,8 +21,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import trackig_core as tig
+from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.solver import FIDELITIES
+from trackig_core.study.catalogue import KINDS
 from trackig_core.track.fields import SLIDER_RANGES
 
 FAILED, STOPPED = 1, 130
@@ -91,7 +94,9 @@ def _command(commands, shell, name, asked, **words):
         metavar="M",
         help="greatest rail deflection [m], in place of the specification's own",
     )
-    command.add_argument("--csv", type=Path, metavar="FILE", help="write all figures as CSV, in SI")
+    command.add_argument(
+        "--csv", type=Path, metavar="FILE", help="write all figures as CSV, in SI, to six figures"
+    )
     command.add_argument("--json", type=Path, metavar="FILE", help="write question and answer as JSON, in SI")
     command.add_argument("--force", action="store_true", help="write over files that exist")
     return command
@@ -198,7 +203,7 @@ def _add_find(commands, shell):
         lambda options: _asked(
             "find",
             free=dict(options.free),
-            choices=_choices(options),
+            choices=_choices(shell, options),
             objectives=options.objectives,
             cost=dict(options.costs),
             population=options.population,
@@ -222,6 +227,17 @@ def _add_find(commands, shell):
         default=[],
         metavar="FILE.csv",
         help="a catalogue: one product a row, fields [SI] and cost in columns; may be given again",
+    )
+    command.add_argument(
+        "--component",
+        action="append",
+        choices=KINDS,
+        default=[],
+        dest="components",
+        help="choose from the catalogue's components of this kind; may be given again",
+    )
+    command.add_argument(
+        "--catalogue", type=Path, metavar="FILE.toml", help="that catalogue, in place of the bundled one"
     )
     command.add_argument("--rails", metavar="NAME,NAME", help="rails to choose from, such as 54E1,60E1")
     command.add_argument(
@@ -333,7 +349,8 @@ def _run(shell, asked, options):
 
 
 def _answer(shell, kind, settings, options):
-    # slow to load, and no other command needs it
+    # slow to load, and no other command needs them
+    from dashboard.persistence.exports import answer_csv
     from trackig_core.decide import Answer, Question
 
     study = shell.open_study(options.study)
@@ -353,13 +370,15 @@ def _answer(shell, kind, settings, options):
     )
     with watched(options.scheduler) as how:
         result = question.ask(**how)
-    table = result.to_dataframe()
+    table, answer = result.to_dataframe(), Answer.of(question, result)
     if STANDARD_OUTPUT not in (options.csv, options.json):
         sys.stdout.write(_text(result, table))
     if options.csv is not None:
-        shell.write(options.csv, table.to_csv(index=False, lineterminator="\n"))
+        name = current_name(study) if options.design is None else options.design
+        heading = Heading.of_question(study, question, name, datetime.date.today())
+        shell.write(options.csv, answer_csv(answer, result, heading))
     if options.json is not None:
-        shell.write(options.json, _json(Answer.of(question, result), table))
+        shell.write(options.json, _json(answer, table))
     if getattr(result, "stopped", False):
         return STOPPED
     return 0 if _anything_complies(result) else FAILED
@@ -597,12 +616,31 @@ def _specimens(options):
     return None if options.production is None else _table(options.production)
 
 
-def _choices(options):
-    """Return what is chosen from catalogues and rails."""
+def _choices(shell, options):
+    """Return what is chosen from tables of products, a catalogue and rails."""
     choices = {path.stem: _products(path) for path in options.choose}
+    if options.catalogue is not None and not options.components:
+        raise DecideError(f"--catalogue: name with --component what is chosen: {', '.join(KINDS)}")
+    if options.components:
+        design = _design(shell.open_study(options.study), options.design)
+        catalogue = _catalogue(options.catalogue)
+        choices |= {
+            kind: [each.choice(design) for each in catalogue.of_kind(kind).values()]
+            for kind in options.components
+        }
     if options.rails is not None:
         choices["rail"] = options.rails.split(",")
     return choices
+
+
+def _catalogue(path):
+    """Return the catalogue of a file, or the bundled one."""
+    if path is None:
+        return tig.study.bundled_catalogue()
+    try:
+        return tig.study.Catalogue.from_toml(_read(path))
+    except tig.StudyError as error:
+        raise DecideError(f"{path}: {error}") from None
 
 
 def _products(path):
@@ -611,14 +649,19 @@ def _products(path):
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
-def _table(path):
-    """Return the columns of a CSV file with a header."""
+def _read(path):
+    """Return what a file holds (bytes)."""
     with path.open("rb") as file:
         data = file.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:
         raise DecideError(f"{path}: the file is larger than {MOST_BYTES // 10**6} MB")
-    rows = list(csv.reader(io.StringIO(data.decode("utf-8-sig", errors="replace"))))
-    rows = [row for row in rows if any(cell.strip() for cell in row)]
+    return data
+
+
+def _table(path):
+    """Return the columns of a CSV file with a header; lines that begin with # are comments."""
+    rows = list(csv.reader(io.StringIO(_read(path).decode("utf-8-sig", errors="replace"))))
+    rows = [row for row in rows if any(cell.strip() for cell in row) and not row[0].startswith("#")]
     if len(rows) < 2:
         raise DecideError(f"{path}: give a header of fields and one row or more")
     header = [cell.strip() for cell in rows[0]]

@@ -45,7 +45,8 @@ def definition_text(summation, reference):
 
 def fidelities_text(fidelities):
     """Return how solutions were obtained, in words: each way once."""
-    return " and ".join(FIDELITIES[each] for each in FIDELITIES if each in set(fidelities))
+    ways = set(fidelities)
+    return " and ".join(words for each, words in FIDELITIES.items() if each in ways)
 
 
 def force_text(force):

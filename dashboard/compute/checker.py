@@ -17,7 +17,6 @@ CAPACITY = 64
 """Checked solutions kept; one holds some 0.2 MB."""
 
 
-@lru_cache(maxsize=CAPACITY)
 def check(summary):
     """Return a solution with what theory says of it.
 
@@ -31,10 +30,16 @@ def check(summary):
     VerifiedSummary
         The frequency-domain solution, or why there are none.
     """
+    return VerifiedSummary(summary, *_theory(summary.solution))
+
+
+@lru_cache(maxsize=CAPACITY)
+def _theory(solution):
+    """Return what theory says of a solution, or None and why there is nothing."""
     try:
-        return VerifiedSummary(summary, tig.verify(summary.solution))
+        return tig.verify(solution), ""
     except Exception as error:
-        return VerifiedSummary(summary, None, readable(error))
+        return None, readable(error)
 
 
 class VerificationRunner(param.Parameterized):

@@ -43,9 +43,10 @@ class Feasibility(Inquiry):
 
     def ask(self, *_):
         """Ask for the design as it stands; without a specification there is nothing to ask."""
-        question = question_of(
-            "range", {}, self._assessment, self._definition, design=self._inputs.to_design()
-        )
+        design, specification = self._inputs.to_design(), self._assessment.specification
+        if specification is not None and specification.rail_deflection_limit is None:
+            design = design.without_statics
+        question = question_of("range", {}, self._assessment, self._definition, design=design)
         if question is None:
             self.param.update(asked=None, answered=None, result=None, problem="")
         else:

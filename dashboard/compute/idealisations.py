@@ -107,8 +107,9 @@ class Idealisations(param.Parameterized):
         summary, definition = self._outcome.summary, self._definition
         if not self.looked_at or summary is None:
             return
-        reference = definition.reference_of(summary.design)
-        asked = (summary.design, definition.bands, reference, definition.summation)
+        design = summary.solution.design
+        reference = definition.reference_of(design)
+        asked = (design, definition.bands, reference, definition.summation)
         found = await asyncio.get_running_loop().run_in_executor(workers(), idealised, *asked)
         if found is not self.found:
             on_next_tick(document, partial(self._put, found))

@@ -17,7 +17,7 @@ import trackig_core as tig
 from dashboard.compute.document import one_message
 from dashboard.compute.latest import Latest, readable
 from dashboard.compute.runner import LOOK_EVERY
-from dashboard.compute.workers import AT_ONCE, AT_REST
+from dashboard.compute.workers import AT_ONCE, AT_REST, key_of
 
 NOTHING = MappingProxyType({})
 
@@ -60,9 +60,9 @@ class PinnedSummaries(param.Parameterized):
     def _take_what_is_kept(self, *_):
         summaries, problems = self._of_pinned(self.summaries), self._of_pinned(self.problems)
         for pin in self._missing():
-            kept = self._stores[AT_REST].kept((pin.design, AT_REST))
+            kept = self._stores[AT_REST].kept(key_of(pin.design, AT_REST))
             if kept is not None:
-                summaries[pin.key] = kept
+                summaries[pin.key] = kept.of_design(pin.design)
         if summaries != self.summaries or problems != self.problems:
             self.param.update(summaries=MappingProxyType(summaries), problems=MappingProxyType(problems))
 
@@ -108,14 +108,14 @@ class PinnedSummaries(param.Parameterized):
     async def _obtain(self, pin, fidelity):
         """Return a picture of a pin, or None if it was removed meanwhile."""
         store = self._stores[fidelity]
-        job = store.request((pin.design, fidelity), owner=self, urgent=fidelity == AT_ONCE)
+        job = store.request(key_of(pin.design, fidelity), owner=self, urgent=fidelity == AT_ONCE)
         try:
             future = asyncio.wrap_future(job.future)
             # an abandoned job may still raise; nobody is left to hear it
             future.add_done_callback(lambda done: done.cancelled() or done.exception())
             while self._wanted(pin) and not future.done():
                 await asyncio.wait({future}, timeout=LOOK_EVERY)
-            return future.result() if future.done() else None
+            return future.result().of_design(pin.design) if future.done() else None
         finally:
             store.release(job)
 

@@ -51,7 +51,7 @@ class TrackResponses(param.Parameterized):
             return
         loop, found = asyncio.get_running_loop(), {}
         for design in [each.design for each in self._assessment.shown]:
-            found[design] = await loop.run_in_executor(workers(), respond, design)
+            found[design] = await loop.run_in_executor(workers(), respond, design.without_statics)
         if found.keys() != self.responses.keys():
             on_next_tick(document, partial(self._put, found))
 

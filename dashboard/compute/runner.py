@@ -20,7 +20,7 @@ import param
 import trackig_core as tig
 from dashboard.compute.document import on_next_tick
 from dashboard.compute.latest import Latest, publish, readable
-from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, compiled
+from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, compiled, key_of
 from dashboard.fields import PHYSICAL
 
 REST = 0.2
@@ -96,7 +96,7 @@ class Runner(param.Parameterized):
     def start(self):
         """Show the picture of the inputs as they stand: at once if the store has it, else when solved."""
         design = self.inputs.to_design()
-        summary = self._store.kept((design, AT_REST))
+        summary = self._store.kept(key_of(design, AT_REST))
         if summary is None:
             self.request()
         else:
@@ -129,14 +129,14 @@ class Runner(param.Parameterized):
             design = self.inputs.to_design()
             # the first picture of an ordinary track is the paper's; that of others would take too long
             first = self.outcome.summary is None and design == design.simplified
-            if not first and self._store.kept((design, AT_REST)) is None:
+            if not first and self._store.kept(key_of(design, AT_REST)) is None:
                 await self._follow(design, document)
-            summary, from_cache = await self._obtain((design, AT_REST), document)
+            summary, from_cache = await self._obtain(design, AT_REST, document)
             changes = self._success(design, summary, from_cache)
             self._publish(document, **changes)
             modified = design != self.inputs.preset_design
             if modified and changes["preset_summary"] is None:
-                ghost, _ = await self._obtain((self.inputs.preset_design, AT_REST), document)
+                ghost, _ = await self._obtain(self.inputs.preset_design, AT_REST, document)
                 self._publish(document, preset_summary=ghost)
         except _SupersededError:
             self._publish(document, progress=None)
@@ -165,7 +165,7 @@ class Runner(param.Parameterized):
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
         taken = 0.0
-        live = asyncio.ensure_future(self._obtain((design, MOVING), document))
+        live = asyncio.ensure_future(self._obtain(design, MOVING, document))
         try:
             taken = await self._bridge(live, design, document)
             summary, _ = await live
@@ -189,13 +189,13 @@ class Runner(param.Parameterized):
         """
         began, drawn = time.monotonic(), asyncio.get_running_loop().create_future()
         on_next_tick(document, lambda _: drawn.done() or drawn.set_result(None))
-        await self._look_up(drawn, whatever_is_new=True, seconds=PATIENCE)
+        await self._latest.done_or_news(drawn, PATIENCE)
         return time.monotonic() - began
 
     async def _draw_exact(self, design, document):
         """Draw the exact curve of a design, if it has one."""
         with contextlib.suppress(tig.DesignError):
-            summary, from_cache = await self._obtain((design, AT_ONCE), document)
+            summary, from_cache = await self._obtain(design, AT_ONCE, document)
             self._publish(document, **self._success(design, summary, from_cache))
 
     async def _bridge(self, live, design, document):
@@ -211,7 +211,7 @@ class Runner(param.Parameterized):
         await asyncio.wait({live}, timeout=0 if is_slow else SOON)
         taken = time.monotonic() - began
         if not live.done():
-            summary, from_cache = await self._obtain((design, AT_ONCE), document)
+            summary, from_cache = await self._obtain(design, AT_ONCE, document)
             taken = time.monotonic() - began
             if not live.done() or live.exception() is not None:
                 self._publish(document, **self._success(design, summary, from_cache))
@@ -223,7 +223,7 @@ class Runner(param.Parameterized):
 
     def _success(self, design, summary, from_cache):
         return {
-            "summary": summary,
+            "summary": summary.of_design(design),
             "preset_summary": self._ghost(design),
             "from_cache": from_cache,
             "busy": self._latest.pending,
@@ -236,18 +236,20 @@ class Runner(param.Parameterized):
         preset, shown = self.inputs.preset_design, self.outcome.preset_summary
         if design == preset:
             return None
-        return shown if shown is not None and shown.design == preset else self._store.kept((preset, AT_REST))
+        if shown is not None and shown.design == preset:
+            return shown
+        return self._store.kept(key_of(preset, AT_REST))
 
-    async def _obtain(self, key, document):
-        store = self._store if key[1] == AT_REST else self._live_store
-        job = store.request(key, owner=self, urgent=key[1] == AT_ONCE)
+    async def _obtain(self, design, fidelity, document):
+        store = self._store if fidelity == AT_REST else self._live_store
+        job = store.request(key_of(design, fidelity), owner=self, urgent=fidelity == AT_ONCE)
         try:
-            await self._wait(job, document)
+            await self._wait(job, design, document)
             return job.future.result(), job.from_cache
         finally:
             store.release(job)
 
-    async def _wait(self, job, document):
+    async def _wait(self, job, design, document):
         future = asyncio.wrap_future(job.future)
         # an abandoned job may still raise; nobody is left to hear it
         future.add_done_callback(lambda done: done.cancelled() or done.exception())
@@ -267,7 +269,7 @@ class Runner(param.Parameterized):
             if not moving and self._latest.pending:
                 raise _SupersededError
             if worked > LONG:
-                self._publish(document, busy=True, progress=job.fraction, asked=job.key[0])
+                self._publish(document, busy=True, progress=job.fraction, asked=design)
 
     def _publish(self, document, **changes):
         publish(self.outcome, document, **changes)

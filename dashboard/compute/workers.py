@@ -25,13 +25,26 @@ LIVE_CAPACITY = 32
 """Live pictures kept: a slider drawn to and fro asks for the same ones again."""
 
 
+def key_of(design, fidelity):
+    """Return the key of a picture in a store: designs of other static stiffnesses share one solution.
+
+    Parameters
+    ----------
+    design : trackig_core.TrackDesign
+        The design.
+    fidelity : str
+        :data:`AT_REST`, :data:`MOVING` or :data:`AT_ONCE`.
+    """
+    return design.without_statics, fidelity
+
+
 def solve_summary(key, progress, cancelled):
     """Solve a design and keep what the views show.
 
     Parameters
     ----------
     key : tuple
-        ``(design, fidelity)``.
+        ``(design, fidelity)``, of :func:`key_of`.
     progress, cancelled : callable
         Handed on to :func:`trackig_core.solve`.
 

@@ -464,7 +464,7 @@ class CloudFigure:
         levels : numpy.ndarray (tried, 21)
             Insertion gain of all designs that were tried [dB].
         labels : sequence of str
-            What its free fields are called, with their ranges.
+            What its free fields are called, with their ranges, and then what was chosen between.
         ends : dict of str to (float, float)
             Range of each free field that is a number [SI].
         axes : (str, str)
@@ -478,7 +478,9 @@ class CloudFigure:
         rows = _drawn_rows(found)
         x, y = found.values[rows, 0] * scales[0], found.values[rows, -1] * scales[1]
         front = np.isin(rows, found.front)
-        places = np.stack([_places(found, name, rows, *each) for name, each in ends.items()], axis=-1)
+        along = [_places(found, name, rows, *each) for name, each in ends.items()]
+        along += [_places_by_name(names)[rows] for names in found.chosen.values()]
+        places = np.stack(along, axis=-1)
         axis = list(range(places.shape[1]))
         self.designs.selected.indices = []
         self.designs.data = {
@@ -500,7 +502,7 @@ class CloudFigure:
         shown = np.append(levels[found.front if found.front.size else [found.closest]], limit)
         _fit(self.gains.y_range, shown[np.isfinite(shown)])
         self.fields.xaxis.ticker = FixedTicker(ticks=axis)
-        self.fields.xaxis.major_label_overrides = dict(zip(axis, labels, strict=True))
+        self.fields.xaxis.major_label_overrides = dict(zip(axis, _staggered(labels), strict=True))
         self.limit.data = BANDS | {"limit": limit}
         self._selected(None, None, [])
 
@@ -551,6 +553,23 @@ def _drawn_rows(found):
     room = max(0, MOST_DRAWN - found.front.size)
     every = max(1, -(-rest.size // max(room, 1)))
     return np.concatenate([rest[::every], found.front]).astype(int)
+
+
+def _staggered(labels):
+    """Return labels of two lines, every other one below its neighbours, where several would run together."""
+    if len(labels) <= MOST_IN_A_ROW:
+        return list(labels)
+    return [f"\n\n{label}" if place % 2 else label for place, label in enumerate(labels)]
+
+
+MOST_IN_A_ROW = 3
+"""Labels that stand beside each other in a picture of half a page [-]."""
+
+
+def _places_by_name(names):
+    """Return places of components, 0 to 1, in the order of their names."""
+    different, places = np.unique(names.astype(str), return_inverse=True)
+    return places / max(1, different.size - 1)
 
 
 def _places(found, name, rows, low, high):

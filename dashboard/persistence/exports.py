@@ -118,8 +118,9 @@ def answer_csv(answer, result, heading):
     Returns
     -------
     str
-        Columns as the library names them, in SI units, below the question, its answer in a sentence, and what
-        is needed to obtain it again: every setting, versions, and the digest of all figures.
+        Columns as the library names them, in SI units and to six figures, below the question, its answer in
+        a sentence, and what is needed to obtain it again: every setting, versions, and the digest of all
+        figures.
     """
     question = answer.question
     remarks = [
@@ -131,7 +132,15 @@ def answer_csv(answer, result, heading):
         f"digest: {answer.digest}",
     ]
     table = result.to_dataframe()
-    return _written(remarks, table.columns, table.itertuples(index=False, name=None))
+    rows = ([_six_figures(cell) for cell in row] for row in table.itertuples(index=False, name=None))
+    return _written(remarks, table.columns, rows)
+
+
+def _six_figures(cell):
+    """Return a number of a table as a design's numbers are given, with six figures; others as they are."""
+    if not isinstance(cell, float):
+        return cell
+    return "" if np.isnan(cell) else f"{cell:.6g}"
 
 
 def point_response_csv(responses, heading):

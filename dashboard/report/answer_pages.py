@@ -229,12 +229,13 @@ def figure_words(name):
 
 
 def _find(_, result):
-    fields = [name for name in result.many.columns if name in FIELDS and _varies(result, name)]
+    fields = [name for name in result.many.columns if name in FIELDS and _numbers_vary(result, name)]
     objectives = [name for name in result.objectives if name not in fields]
-    with_rail = _varies(result, "rail")
+    with_rail = "rail" not in result.chosen and _varies(result, "rail")
     heads = (
         *(FIELDS[name].labelled for name in fields),
         *(["Rail"] if with_rail else []),
+        *(kind.capitalize() for kind in result.chosen),
         *(figure_words(name)[0] for name in objectives),
     )
     best = result.front[:: max(1, -(-result.front.size // MOST_ROWS))]
@@ -243,6 +244,7 @@ def _find(_, result):
         design = result.many.design(int(place))
         cells = [formats.quantity_text(float(f"{getattr(design, n) / FIELDS[n].factor:.4g}")) for n in fields]
         cells += [design.rail.name] if with_rail else []
+        cells += [names[place] for names in result.chosen.values()]
         for name in objectives:
             value = result.values[place, result.objectives.index(name)] * figure_words(name)[1]
             cells.append(f"{value:.2f}")
@@ -250,6 +252,11 @@ def _find(_, result):
     words = "Designs of the front" if best.size else "No design complies; this one comes closest"
     listed = f"{words}, {len(rows)} of {max(result.front.size, 1)}. Seed {result.seed}."
     return AnswerPage((AnswerTable(heads, tuple(rows)),), remarks=(listed,))
+
+
+def _numbers_vary(result, name):
+    """Return whether a field has several values, none of which is measured over frequency."""
+    return result.many.columns[name].dtype == float and _varies(result, name)
 
 
 def _varies(result, name):

@@ -20,8 +20,17 @@ from dashboard.report.html_report import (
 from dashboard.session.special import input_text
 from trackig_core.bands import ONE_THIRD_OCTAVES
 
-PLOT_HEIGHT = 2.9
-"""Height of the plot [inch]."""
+PLOT_HEIGHT, LEAST_PLOT_HEIGHT = 2.9, 2.0
+"""Height of the plot of a design with few inputs, and at least [inch]."""
+
+FEW_INPUTS, FEW_BAND_ROWS = 9, 4
+"""Rows of inputs and of the table of bands with which the plot has its full height [-]."""
+
+ROW_HEIGHT = 0.07
+"""By how much every further row lowers the plot [inch]."""
+
+MOST_COLUMNS = 21
+"""Bands side by side in a table [-]; more go into two tables."""
 
 
 def data_sheet(result, heading, specification=None, source=None, measured=()):
@@ -46,17 +55,21 @@ def data_sheet(result, heading, specification=None, source=None, measured=()):
         An HTML file that prints on one page.
     """
     natural, level = result.summary.solution.natural_frequencies, result.level
+    inputs, bands = _inputs(result.design), _bands(result, specification, measured)
+    tables = _broken(bands)
     reference = None if source is None else source.with_track(np.zeros(tig.BAND_CENTRES.size))
     return TEMPLATES.get_template("data_sheet.html").render(
         theme=theme,
         heading=heading,
         result=result,
         specification=specification,
-        plot=plots.gain_svg([result], specification, PLOT_HEIGHT, measured),
+        plot=plots.gain_svg([result], specification, _plot_height(inputs, tables), measured),
         measured=measured,
         beyond_measured=formats.extrapolated_text(heading.design),
-        bands=_bands(result, specification, measured),
-        inputs=_inputs(result.design),
+        tables=tables,
+        longest_cell=max(len(text) for _, cells in bands for text, _ in cells),
+        inputs=inputs,
+        dense=len(inputs) > FEW_INPUTS,
         frequencies=[
             (name, hertz_text(take(natural))) for name, take in FREQUENCIES if take(natural) is not None
         ],
@@ -69,6 +82,21 @@ def data_sheet(result, heading, specification=None, source=None, measured=()):
         level=None if level is None else _level_text(level),
         notes=result.summary.solution.notes,
     )
+
+
+def _plot_height(inputs, tables):
+    """Return the height of the plot [inch] that leaves room for all rows on the page."""
+    rows = max(0, len(inputs) - FEW_INPUTS) + max(0, sum(map(len, tables)) - FEW_BAND_ROWS)
+    return max(LEAST_PLOT_HEIGHT, PLOT_HEIGHT - ROW_HEIGHT * rows)
+
+
+def _broken(rows):
+    """Return rows of (name, cells) as tables of the page's width, of about as many columns each."""
+    count = len(rows[0][1])
+    width = -(-count // -(-count // MOST_COLUMNS))
+    return [
+        [(name, cells[first : first + width]) for name, cells in rows] for first in range(0, count, width)
+    ]
 
 
 def _bands(result, specification, measured):

@@ -99,6 +99,7 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
         difference_plot=plots.difference_svg(results, base) if len(results) > 1 else None,
         force_plot=plots.force_svg(results),
         beyond=_beyond(results),
+        surroundings=_surroundings(results),
         step=next((each.summary.step for each in results if each.summary.step), None),
         inputs=_inputs(results, base),
         frequencies=_frequencies(results),
@@ -139,6 +140,14 @@ def _beyond(results):
         for each, words in zip(stepped, plots.beyond_texts(stepped) if stepped else (), strict=True)
         if words
     ]
+
+
+def _surroundings(results):
+    """Return what stands on and under the designs, as (words, names of those); no names: of all of them."""
+    names = {}
+    for each in results:
+        names.setdefault(surroundings.sentence(each.design), []).append(each.name)
+    return [(words, of if len(names) > 1 else ()) for words, of in names.items()]
 
 
 def _results(study, summaries):

@@ -32,6 +32,9 @@ FORCE_ROOM = 1.1
 EXTRAPOLATED = {"facecolor": "none", "edgecolor": (theme.EXTRAPOLATED, 0.5), "hatch": r"\\\\", "linewidth": 0}
 """Look of bands that rest on extrapolation, in plots and their legends."""
 
+MOST_UPRIGHT = 21
+"""Bands whose labels find room side by side [-]; those of more are turned."""
+
 LEAST_DIFFERENCES = 3.0
 """What the axis of differences reaches at least, up and down [dB]."""
 
@@ -104,6 +107,8 @@ def dress_bands(axes, label, bands=ONE_THIRD_OCTAVES):
     axes.xaxis.set_major_formatter(FixedFormatter(bands.labels))
     axes.xaxis.set_minor_locator(NullLocator())
     _dress(axes, f"{bands.words} band, Hz", label)
+    if len(bands.labels) > MOST_UPRIGHT:
+        axes.tick_params(axis="x", labelrotation=90)
 
 
 def _curve(axes, x, y, result, **kind):

@@ -67,6 +67,30 @@ class Heading:
             version=tig.__version__,
         )
 
+    @classmethod
+    def of_question(cls, study, question, design, date):
+        """Return what a file says that holds an answer.
+
+        Parameters
+        ----------
+        study : trackig_core.Study
+            The study.
+        question : trackig_core.decide.Question
+            What was asked; answers are of the frequency-domain solution and of the paper's bands.
+        design : str
+            What the design is called that was asked about.
+        date : datetime.date
+            The day.
+        """
+        return cls(
+            study=study.name,
+            design=design,
+            definition=formats.definition_text(question.summation, question.reference),
+            fidelity=formats.FIDELITIES["exact"],
+            date=date,
+            version=tig.__version__,
+        )
+
     @property
     def day(self):
         """The date in words."""

@@ -28,6 +28,9 @@ class SolutionSummary:
         Height of the step.
     seconds : float [s]
         How long the solver took.
+    shown : trackig_core.TrackDesign or None
+        The design that is shown, where its static stiffnesses differ from those of the solution; None: the
+        solution's.
     """
 
     solution: tig.Solution
@@ -36,6 +39,7 @@ class SolutionSummary:
     total_force: np.ndarray | None
     step: float | None
     seconds: float
+    shown: tig.TrackDesign | None = None
 
     @classmethod
     def of(cls, solution, seconds):
@@ -53,8 +57,12 @@ class SolutionSummary:
 
     @property
     def design(self):
-        """The design that was solved."""
-        return self.solution.design
+        """The design that was solved, with its static stiffnesses: the solution does without them."""
+        return self.solution.design if self.shown is None else self.shown
+
+    def of_design(self, design):
+        """Return the same picture, of a design that differs in nothing but static stiffnesses."""
+        return self if design == self.design else dataclasses.replace(self, shown=design)
 
 
 @dataclass(frozen=True, eq=False)

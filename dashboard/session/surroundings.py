@@ -150,6 +150,15 @@ def text(design, name):
     return "own values" if key == OWN else f"{key} (generic)"
 
 
+def sentence(design):
+    """Return what stands on a design and what it stands on, in words, without a full stop."""
+    count = len(design.axle_positions)
+    wheels = "one wheel" if count == 1 else f"{count} wheels {text(design, 'axle_positions')}"
+    vehicle = "unsprung mass only" if design.suspension is None else f"vehicle: {text(design, 'suspension')}"
+    ground = "rigid ground" if design.ground is None else f"ground that yields: {text(design, 'ground')}"
+    return f"{wheels}; {vehicle}; {ground}"
+
+
 def _roughness(design):
     if design.speed is None:
         return "independent roughness"

@@ -69,7 +69,7 @@ class Subject(Viewer):
         summary = self.outcome.summary
         if summary is None or (self.at_rest_only and not self._is_at_rest(summary)):
             return
-        self.question.asked = self.ask(summary.design)
+        self.question.asked = self.ask(summary.solution.design)
 
     def _is_at_rest(self, summary):
         """Return whether a picture is the last one of its inputs, or will be for long."""

@@ -121,3 +121,53 @@ def test_a_map_is_drawn_kept_and_listed(open_dashboard):
     expect(page.get_by_role("heading", name="Which designs comply over two numbers?")).to_be_visible()
     page.get_by_role("button", name="Ask again").click()
     expect(page.get_by_text("The same figures came out, to the last bit.")).to_be_visible()
+
+
+def test_a_box_drawn_by_mouse_brushes_all_pictures_of_a_search(open_dashboard):
+    page = open_dashboard()
+    paste(page)
+    open_tab(page, "Decide")
+    page.get_by_role("tab", name="Search", exact=True).click()
+    page.get_by_role("button", name="Find designs").click()
+    expect(page.get_by_text("of them no other beats")).to_be_visible()
+    # a search that grows draws its pictures anew
+    expect(page.get_by_role("button", name="Stop", exact=True)).to_have_count(0)
+    take = page.get_by_role("button", name="Take to the sliders")
+    expect(take).to_be_disabled()
+    wait_until_drawn(page, "objectives_figure")
+    wait_until_at_rest(page)
+    frame = page.evaluate(
+        """() => {
+            const plot = Bokeh.documents[0].get_model_by_name("objectives_figure")
+            const view = Bokeh.index.find_one(plot)
+            view.el.scrollIntoView({block: "center"})
+            const {x, y} = view.canvas_view.el.getBoundingClientRect()
+            const {left, top, width, height} = view.frame.bbox
+            plot.toolbar.active_drag = plot.toolbar.tools.find(tool => tool.type == "BoxSelectTool")
+            return [x + left, y + top, width, height]
+        }"""
+    )
+    left, top, width, height = frame
+    page.mouse.move(left + 2, top + height / 2)
+    page.mouse.down()
+    page.mouse.move(left + width / 4, top + 0.8 * height, steps=5)
+    page.mouse.move(left + width / 2, top + height - 2, steps=5)
+    page.mouse.up()
+    # what is in the box is selected in the pictures of objectives and fields alike, and drawn in the third
+    page.wait_for_function("() => Bokeh.documents[0].get_model_by_name('found').selected.indices.length > 0")
+    expect(take).to_be_enabled()
+    page.wait_for_function("() => Bokeh.documents[0].is_idle")
+    wrong, inside, curves = page.evaluate(
+        """() => {
+            const byName = name => Bokeh.documents[0].get_model_by_name(name)
+            const found = byName("found"), plot = byName("objectives_figure"), {x, y} = found.data
+            const middle = (plot.x_range.start + plot.x_range.end) / 2
+            const half = (plot.y_range.start + plot.y_range.end) / 2
+            const wrong = found.selected.indices.filter(row => x[row] > middle || y[row] > half)
+            const shared = byName("fields_figure").renderers.some(each => each.data_source == found)
+            const {length} = byName("found_gains").data.xs
+            return [wrong.length + !shared, found.selected.indices.length, length]
+        }"""
+    )
+    assert wrong == 0
+    assert 0 < curves <= inside

@@ -1,13 +1,19 @@
 """What a small window leaves to the pictures: legends, tabs and words make way for the data."""
 
+import datetime
+
 import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
+from dashboard.report.data_sheet import data_sheet
+from dashboard.session.bands import gain_in
+from dashboard.session.heading import Heading
+from dashboard.session.results import DesignResult, SolutionSummary
 from dashboard.theme import MOST_PINNED
 from tests.browser.conftest import wait_until_at_rest
-from tests.browser.test_workshop import open_file, open_tab
-from trackig_core.names import LONGEST_NAME
+from tests.browser.test_workshop import open_file, open_tab, pages
+from trackig_core.names import LONGEST_NAME, LONGEST_TITLE
 
 pytestmark = pytest.mark.browser
 
@@ -142,3 +148,60 @@ def test_figures_in_narrow_cells_are_turned(small):
     expect(small.get_by_text("hardly matters")).to_be_visible()
     look = "() => Bokeh.documents[0].get_model_by_name('left_out_cells_figure').renderers[1].glyph.angle"
     small.wait_for_function(f"() => Math.abs(({look})().value - Math.PI / 2) < 1e-9")
+
+
+TITLE = f"{'The extraordinarily long title of whatever may have one':<{LONGEST_TITLE - 1}}"
+EVERYTHING = tig.PRESETS["booted-block-low-mass"].replace(
+    pad_stiffness=tig.StiffnessCurve([(1, 90e6, 0.1), (10, 95e6, 0.12), (30, 110e6, 0.2)]),
+    pad_loss_factor=None,
+    boot_stiffness=tig.StiffnessCurve([(1, 15e6, 0.1), (20, 18e6, 0.12), (40, 21e6, 0.2)]),
+    boot_loss_factor=None,
+    rail=tig.Rail(f"{LONG}9", 60.2123, 6.41234e6),
+    pad_static_stiffness=80e6,
+    boot_static_stiffness=12e6,
+    stiffness_frequency=20.0,
+    suspension=tig.VEHICLES["regional"].suspension,
+    axle_positions=(0.0, 2.4, 7.0, 9.4, 14.0, 16.4, 21.0, 23.4),
+    speed=22.3,
+    ground=tig.GROUNDS["soft clay"],
+)
+
+
+@pytest.mark.parametrize("bands", ["one-third-octave", "wide one-third-octave"])
+def test_a_data_sheet_with_everything_on_prints_on_one_page(reader, bands):
+    every = list(map(float, tig.BAND_LABELS))
+    measured = [
+        tig.MeasuredGain([(band, -100.0) for band in every], name=f"{TITLE}{number}") for number in range(4)
+    ]
+    study = tig.Study(
+        EVERYTHING,
+        [tig.PinnedDesign(f"{LONG}9", EVERYTHING, 0)],
+        tig.Specification([(band, -30.0) for band in every], f"{TITLE}9", rail_deflection_limit=1.5e-3),
+        view=tig.View(reference="stiff", bands=bands),
+        source=tig.SourceSpectrum([(band, 60.0) for band in every], f"{TITLE}9"),
+        measured=measured,
+        name=f"{TITLE}9",
+    )
+    summary = SolutionSummary.of(tig.solve(EVERYTHING, "exact"), 1.0)
+    gain = summary.solution.gain_for("stiff", "energy")
+    statics = tig.study.StaticLoad(wheelbase=2.4).response(EVERYTHING)
+    result = DesignResult(
+        study.pinned[0],
+        summary,
+        gain,
+        study.specification.check(gain.levels, statics.rail_deflection),
+        study.source.with_track(gain.levels),
+        statics,
+        gain_in(bands, summary.solution, "stiff", "energy"),
+    )
+    heading = Heading.of(study, [result], datetime.date(2026, 9, 30))
+    sheet = data_sheet(result, heading, study.specification, study.source, measured)
+    assert len(result.summary.solution.notes) > 1
+    page = reader.open_at_once()
+    assert pages(page, sheet.encode()) == 1
+    page.set_content(sheet)
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 688, "height": 1032})
+    too_wide = "cells => cells.filter(each => each.scrollWidth > each.clientWidth + 1).length"
+    assert page.locator("th, td").evaluate_all(too_wide) == 0
+    page.close()

@@ -12,11 +12,12 @@ from hypothesis import strategies as st
 import trackig_core as tig
 from tests.core.time_domain.test_grid import designs
 from trackig_core import solver
-from trackig_core.frequency_domain import batch_kernels
+from trackig_core.frequency_domain import axle_kernels, batch_kernels
 from trackig_core.frequency_domain import kernels as frequency_kernels
 from trackig_core.frequency_domain.batch_kernels import MOST_FREQUENCIES
 from trackig_core.frequency_domain.floquet_waves import exact_spectrum
 from trackig_core.frequency_domain.lattice import Lattice
+from trackig_core.levels import kernels as level_kernels
 from trackig_core.time_domain import kernels as time_kernels
 from trackig_core.time_domain.grid import RING_BAYS, make_grid
 from trackig_core.time_domain.spectrum import force_spectrum
@@ -285,7 +286,8 @@ def test_sharp_resonances_are_resolved(design):
 
 
 def test_what_rounding_drowns_is_refused(monkeypatch):
-    def drowned(_track, _recursions, _time_step, _bays, frequency):
+    def drowned(*arguments):
+        frequency = arguments[-1]
         return np.array([frequency, -np.ones_like(frequency), np.ones_like(frequency)])
 
     monkeypatch.setattr(batch_kernels, "resolve_row", drowned)
@@ -295,11 +297,13 @@ def test_what_rounding_drowns_is_refused(monkeypatch):
 
 def test_compiling_leaves_nothing_to_compile():
     tig.compile_kernels()
-    every = [*vars(time_kernels).values(), *vars(frequency_kernels).values(), *vars(batch_kernels).values()]
+    modules = (time_kernels, frequency_kernels, batch_kernels, axle_kernels, level_kernels)
+    every = [each for module in modules for each in vars(module).values()]
     kernels = [each for each in every if hasattr(each, "signatures")]
     before = {each: tuple(each.signatures) for each in kernels}
-    for fidelity in ("paper", "exact"):
-        tig.solve(BLOCK, fidelity)
+    followed = BLOCK.replace(axle_positions=(0.0, 0.6), speed=20.0, ground=tig.GROUNDS["rock"])
+    for design, fidelity in ((BLOCK, "paper"), (BLOCK, "exact"), (followed, "exact")):
+        tig.solve(design, fidelity)
     tig.verify(tig.solve(SLAB))
     assert before[time_kernels.advance]
     assert before[frequency_kernels.bay_waves]

@@ -3,7 +3,6 @@
 import contextlib
 import csv
 import dataclasses
-import io
 import json
 import os
 import socket
@@ -18,6 +17,7 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
+from dashboard import formats
 from dashboard.cli import main
 from tests.waiting import WAIT
 
@@ -85,21 +85,50 @@ def test_fields_can_be_changed_and_cleared(capsys):
     assert "coupled block" not in text
 
 
-def test_results_are_written_in_full(tmp_path):
+def comments_and_rows(text):
+    """Return the comment lines of a CSV file and the rows of its table."""
+    remarks = [line for line in text.splitlines() if line.startswith("# ")]
+    return remarks, list(csv.reader(text.splitlines()[len(remarks) :]))
+
+
+def test_a_table_is_that_of_the_page_and_a_record_in_full(tmp_path):
     table, record = tmp_path / "ig.csv", tmp_path / "ig.json"
     arguments = ["solve", "slab-track", "--fidelity", "exact", "--csv", str(table), "--json", str(record)]
     assert main(arguments) == 0
     solution = tig.solve(tig.PRESETS["slab-track"], "exact")
-    rows = list(csv.reader(io.StringIO(table.read_text())))
-    assert rows[0] == ["frequency_hz", "insertion_gain_db"]
+    remarks, rows = comments_and_rows(table.read_text())
+    assert remarks[:4] == [
+        "# study: Study",
+        "# design: Slab track",
+        f"# insertion gain: {formats.definition_text('energy', 'line')}",
+        "# solution: frequency-domain solution",
+    ]
+    assert f"# trackig {tig.__version__}" in remarks
+    assert rows[0] == ["frequency_hz", "insertion_gain_db This design"]
     assert [row[0] for row in rows[1:]] == list(tig.BAND_LABELS)
-    assert [float(row[1]) for row in rows[1:]] == solution.insertion_gain.tolist()
+    assert [row[1] for row in rows[1:]] == [f"{level:.4f}" for level in solution.insertion_gain]
     found = json.loads(record.read_text())
     assert found["insertion_gain_db"] == solution.insertion_gain.tolist()
     assert found["natural_frequencies_hz"]["loaded_track"] == solution.natural_frequencies.loaded_track
     assert found["natural_frequencies_hz"]["coupled_block"] is None
     rail = tig.Rail(**found["design"].pop("rail"))
     assert tig.TrackDesign(rail=rail, **found["design"]) == solution.design
+
+
+def test_a_table_says_what_was_changed_and_holds_measured_curves(tmp_path, save):
+    table = tmp_path / "ig.csv"
+    measured = [tig.MeasuredGain([(63, -3.25)], name="On site")]
+    path = save(name="Tunnel 7", preset="booted-block-low-mass", measured=measured)
+    words = ["--set", "boot_stiffness=20kN/mm", "--reference", "rigid", "--fidelity", "exact"]
+    assert main(["solve", path, *words, "--csv", str(table)]) == 0
+    remarks, rows = comments_and_rows(table.read_text())
+    assert remarks[:3] == [
+        "# study: Tunnel 7",
+        "# design: Booted block, low mass, modified",
+        f"# insertion gain: {formats.definition_text('energy', 'rigid')}",
+    ]
+    assert rows[0][2] == "measured_insertion_gain_db On site"
+    assert {row[2] for row in rows[1:]} == {"", "-3.2500"}
 
 
 def test_files_are_not_written_over_unless_forced(tmp_path, capsys, save):
@@ -110,7 +139,7 @@ def test_files_are_not_written_over_unless_forced(tmp_path, capsys, save):
     assert "give --force" in capsys.readouterr().err
     assert table.read_text() == "precious"
     assert main([*arguments, "--force"]) == 0
-    assert table.read_text().startswith("frequency_hz")
+    assert table.read_text().startswith("# study: ")
     path = save("study.html")
     before = Path(path).read_text()
     assert main(["report", path, path, "--force"]) == 2
@@ -119,7 +148,7 @@ def test_files_are_not_written_over_unless_forced(tmp_path, capsys, save):
 
 
 @pytest.mark.parametrize(
-    ("option", "begin"), [("--csv", "frequency_hz,insertion_gain_db\n5,"), ("--json", "{")]
+    ("option", "begin"), [("--csv", "# study: Study\n# design: Slab track\n"), ("--json", "{")]
 )
 def test_a_file_may_be_standard_output_which_then_holds_nothing_else(capsys, tmp_path, option, begin):
     arguments = ["solve", "slab-track", "--fidelity", "exact", option]
@@ -169,6 +198,20 @@ def test_check_tells_each_verdict_and_whether_all_comply(save, capsys, specifica
     for line, design in zip(lines[1::2], designs.values(), strict=True):
         sinks = 1e3 * tig.static_response(design).rail_deflection
         assert line.startswith(f"    rail deflection at least {sinks:.2f} mm, seat load ")
+
+
+def test_check_of_a_limit_of_deflection_alone_follows_the_static_stiffness(save, capsys):
+    stiff = BLOCK.replace(pad_static_stiffness=80e6, boot_static_stiffness=14e6)
+    sinks = [tig.static_response(each).rail_deflection for each in (BLOCK, stiff)]
+    assert sinks[0] < sinks[1], "a static stiffness below the dynamic one lets the rail sink further"
+    between = tig.Specification([], rail_deflection_limit=sum(sinks) / 2)
+    assert main(["check", save(specification=between), "--fidelity", "exact"]) == 0
+    assert "This design: complies; rail deflection" in capsys.readouterr().out
+    pinned = [tig.PinnedDesign("As stated", stiff)]
+    assert main(["check", save(specification=between, pinned=pinned), "--fidelity", "exact"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[2].startswith("As stated: fails; rail deflection")
+    assert f"rail deflection {1e3 * sinks[1]:.2f} mm" in lines[3]
 
 
 def test_only_designs_that_are_shown_are_checked(save, capsys):

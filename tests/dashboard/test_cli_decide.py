@@ -1,7 +1,6 @@
 """Commands that choose between designs print what the core answers, and end with the code that says how."""
 
 import csv
-import io
 import json
 import os
 import re
@@ -17,6 +16,7 @@ import pytest
 
 import trackig_core as tig
 from dashboard.cli import main
+from tests.core.decide.test_search import CATALOGUE
 from tests.waiting import WAIT
 
 ROOT = Path(__file__).parent.parent.parent
@@ -40,7 +40,8 @@ def save(tmp_path):
 
 
 def table(path):
-    return list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))))
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("# ")))
 
 
 def test_range_prints_and_writes_what_the_core_finds(save, tmp_path, capsys):
@@ -49,9 +50,11 @@ def test_range_prints_and_writes_what_the_core_finds(save, tmp_path, capsys):
     assert main([*words, "--csv", str(out), "--json", str(answer)]) == 0
     expected = tig.decide.feasible_ranges(BLOCK, CEILING, fields=["boot_stiffness", "block_mass"])
     rows = table(out)
-    assert [(row["field"], float(row["low"]), float(row["high"])) for row in rows] == [
-        (field, low, high) for field in expected for low, high in expected[field]
+    assert [(row["field"], row["low"], row["high"]) for row in rows] == [
+        (field, f"{low:.6g}", f"{high:.6g}") for field in expected for low, high in expected[field]
     ]
+    for remark in ("# study: Study", f"# answer: {expected}", "# solution: frequency-domain solution"):
+        assert remark in out.read_text(encoding="utf-8").splitlines()
     said = capsys.readouterr().out
     assert said.endswith(f"\n{expected}\n")
     assert f"{expected['boot_stiffness'][0][1]:.5g}" in said
@@ -109,7 +112,7 @@ def test_tolerance_takes_specimens(save, tmp_path, capsys):
     assert said.out.endswith(f"\n{expected}\n")
     assert "100 %" in said.err
     assert "%\n" not in said.out.replace(str(expected), "")
-    assert [float(row["margin"]) for row in table(out)] == expected.margins.tolist()
+    assert [row["margin"] for row in table(out)] == [f"{margin:.6g}" for margin in expected.margins]
 
 
 def test_map_writes_every_point(save, tmp_path, capsys):
@@ -137,13 +140,34 @@ def test_find_takes_catalogues_and_rails(save, tmp_path, capsys):
     rows = table(out)
     assert len(rows) == 120
     assert {(row["boot_stiffness"], row["rail"]) for row in rows} == {
-        (boot, rail) for boot in ("20000000.0", "28000000.0") for rail in ("60", "60E1")
+        (boot, rail) for boot in ("2e+07", "2.8e+07") for rail in ("60", "60E1")
     }
-    price = {"20000000.0": 30, "28000000.0": 20}
+    price = {"2e+07": 30, "2.8e+07": 20}
     for row in rows:
         expected = price[row["boot_stiffness"]] + 0.1 * float(row["block_mass"])
-        assert float(row["cost"]) == pytest.approx(expected)
+        assert float(row["cost"]) == pytest.approx(expected, rel=1e-5)
     assert "designs comply, and no other beats" in capsys.readouterr().out
+
+
+def test_find_takes_measured_components_of_a_catalogue(save, tmp_path, capsys):
+    catalogue, out = tmp_path / "own.toml", tmp_path / "cloud.csv"
+    catalogue.write_text(CATALOGUE.to_toml(), encoding="utf-8")
+    words = ["find", save(), "--free", "block_mass=20..100", "--catalogue", str(catalogue)]
+    asked = [*words, "--component", "pad", "--component", "rail", "--population", "8", "--generations", "2"]
+    assert main([*asked, "--csv", str(out)]) in (0, 1)
+    choices = {
+        kind: [each.choice(BLOCK) for each in CATALOGUE.of_kind(kind).values()] for kind in ("pad", "rail")
+    }
+    free = {"block_mass": (20, 100)}
+    expected = tig.decide.find(BLOCK, CEILING, free, choices=choices, population=8, generations=2)
+    rows = table(out)
+    assert [row["pad"] for row in rows] == list(expected.chosen["pad"])
+    assert [float(row["slack"]) for row in rows] == expected.slack.tolist()
+    said = capsys.readouterr().out
+    assert said.endswith(f"\n{expected}\n")
+    assert expected.chosen["pad"][expected.closest] in said
+    assert main(words) == 2
+    assert "--catalogue: name with --component" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,6 @@ from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
-from trackig_core.track.rails import RAILS
 
 if TYPE_CHECKING:
     import pandas
@@ -99,7 +98,7 @@ class Question:
         The design.
     settings : dict
         Arguments by name, plain values [SI units]: a tolerance is a share, ``{"uniform": share}`` or
-        ``{"normal": deviation}``; rails stand by their names.
+        ``{"normal": deviation}``; rails stand by their names, measured curves by their rows.
     specification : Specification or None
         What designs are held against.
     source : SourceSpectrum or None
@@ -294,20 +293,8 @@ def _tolerance(name: str, given: Any) -> Any:
     return kinds[kind](share)
 
 
-def _choices(given: Mapping[str, Any]) -> dict[str, list[Any]]:
-    """Return choices of plain values: rails of their names."""
-    return {name: [_choice(name, each) for each in values] for name, values in given.items()}
-
-
-def _choice(name: str, given: Any) -> Any:
-    if isinstance(given, Mapping):
-        return {key: _choice(key, value) for key, value in given.items()}
-    return RAILS[given] if name == "rail" and isinstance(given, str) else given
-
-
 _MADE: dict[str, Callable[[Any], Any]] = {
     "tolerances": _tolerances,
-    "choices": _choices,
     "points": tuple,
     "figures": tuple,
     "objectives": tuple,

@@ -8,7 +8,7 @@ optimization in Python".
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -26,6 +26,8 @@ from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.results import SolveCancelled
 from trackig_core.track.design import TrackDesign
+from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
+from trackig_core.track.rails import RAILS, Rail
 from trackig_core.track.static_stiffness import stand_in
 
 if TYPE_CHECKING:
@@ -33,9 +35,14 @@ if TYPE_CHECKING:
 
 Choices = Mapping[str, Sequence[Any]]
 """What is chosen from a catalogue: values by field, or by any other name dicts of several fields at once,
-each with a ``"cost"`` if it has one."""
+each with a ``"cost"`` if it has one, and the name of the ``"component"``."""
 
 COST = "cost"
+
+COMPONENT = "component"
+
+NO_FIELDS = {COST, COMPONENT}
+"""What a choice may say beside the fields that it sets."""
 
 POPULATION = 100
 """Designs of a generation [-]."""
@@ -66,6 +73,8 @@ class FoundDesigns:
         Limit that each keeps least: a band, or ``"deflection"``.
     front : numpy.ndarray of int (best,)
         Complying designs that no other beats in every objective, by the first objective.
+    chosen : dict of str to numpy.ndarray of object (tried,)
+        Names of the components that each has, by what was chosen between.
     seed, generations : int
         Seed, and generations that were finished.
     stopped : bool
@@ -80,6 +89,7 @@ class FoundDesigns:
     slack: RealArray = field(repr=False)
     governed_by: tuple[str, ...] = field(repr=False)
     front: IntArray = field(repr=False)
+    chosen: dict[str, AnyArray] = field(repr=False)
     seed: int
     generations: int
     stopped: bool
@@ -104,8 +114,12 @@ class FoundDesigns:
         return [self.many.design(int(place)) for place in self.front]
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """Return a pandas.DataFrame, one row a design tried: fields [SI], figures, objectives, front."""
-        table = self.many.to_dataframe().assign(slack=self.slack, governed_by=self.governed_by)
+        """Return a pandas.DataFrame, one row a design tried: fields [SI], components, figures, front."""
+        table = (
+            self.many.to_dataframe()
+            .assign(**self.chosen)
+            .assign(slack=self.slack, governed_by=self.governed_by)
+        )
         table = table.assign(**dict(zip(self.objectives, self.values.T, strict=True)))
         return table.assign(front=np.isin(np.arange(self.slack.size), self.front))
 
@@ -169,7 +183,9 @@ def find(
         stated static stiffness keeps its ratio to the dynamic one.
     choices : dict of str to sequence, optional
         What is chosen from a catalogue: values by field, or by any other name dicts of several fields at
-        once, each of which may have a ``"cost"``.
+        once, each of which may have a ``"cost"``, and with the name of a ``"component"`` stands for the whole
+        pad or boot, as :meth:`trackig_core.study.Component.choice` gives it. A rail is a ``Rail``, its name
+        or a dict of its fields; what is measured is a curve, or a list of its rows.
     objectives : sequence of str
         One or more of ``"margin"`` (as great as possible), other figures (see ``Requirements.values``),
         fields that are numbers, and ``"cost"``, all as small as possible.
@@ -243,16 +259,19 @@ class _Space:
     def of(cls, design: TrackDesign, free: Sequence[str] | Ranges, choices: Choices) -> _Space:
         names = [field.name for field in dataclasses.fields(TrackDesign)]
         offered = {
-            name: tuple({name: each} if name in names else dict(each) for each in values)
+            name: tuple(
+                _made_choice({name: each} if name in names and not _sets(name, each) else each)
+                for each in values
+            )
             for name, values in choices.items()
         }
         for name, values in offered.items():
             if not values:
                 raise ValueError(f"{name}: give one or more to choose from")
             for each in values:
-                design.replace(**{key: value for key, value in each.items() if key != COST})
+                design.replace(**_fields(each))
         ranges = searched_ranges(design, tuple(free), free if isinstance(free, Mapping) else None)
-        chosen = [key for values in offered.values() for key in values[0] if key != COST]
+        chosen = [key for values in offered.values() for key in _fields(values[0])]
         for name, values in offered.items():
             if any(each.keys() - {COST} != values[0].keys() - {COST} for each in values):
                 raise ValueError(f"{name}: give the same fields for each")
@@ -275,13 +294,27 @@ class _Space:
             columns[name] = value.clip(low, high)
         for name, values in self.choices.items():
             rows = self.chosen(places, name)
-            for key in values[0]:
-                if key != COST:
-                    column = np.empty(rows.size, dtype=object)
-                    column[:] = [values[row][key] for row in rows]
-                    is_number = all(isinstance(value, int | float) for value in column)
-                    columns[key] = column.astype(float) if is_number else column
+            for key in _fields(values[0]):
+                column = _objects(values[row][key] for row in rows)
+                is_number = all(isinstance(each[key], int | float) for each in values)
+                columns[key] = column.astype(float) if is_number else column
         return columns
+
+    def components(self, places: RealArray) -> dict[str, AnyArray]:
+        """Return the names of the components of designs (n,) at places (n, names), by choice."""
+        return {
+            name: _objects(values[row][COMPONENT] for row in self.chosen(places, name))
+            for name, values in self.choices.items()
+            if COMPONENT in values[0]
+        }
+
+    def measured(self, field: str) -> bool:
+        """Return whether one of the choices has a field that is no single number."""
+        return any(
+            field in each and not isinstance(each[field], int | float)
+            for values in self.choices.values()
+            for each in values
+        )
 
     def chosen(self, places: RealArray, name: str) -> IntArray:
         """Return which of the choices of a name is made (n,)."""
@@ -305,9 +338,57 @@ class _Space:
                 np.log(value / low) / np.log(high / low) if logarithmic else (value - low) / (high - low)
             )
         for values in self.choices.values():
-            same = [all(getattr(design, k) == v for k, v in each.items() if k != COST) for each in values]
+            same = [all(getattr(design, k) == v for k, v in _fields(each).items()) for each in values]
             place.append(((same.index(True) if any(same) else 0) + 0.5) / len(values))
         return np.array(place)
+
+
+def _fields(choice: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields that a choice sets."""
+    return {name: value for name, value in choice.items() if name not in NO_FIELDS}
+
+
+def _sets(field: str, given: Any) -> bool:
+    """Return whether a choice is a dict that sets a field, rather than the value of that field."""
+    return isinstance(given, Mapping) and field in given
+
+
+def _objects(values: Iterable[Any]) -> AnyArray:
+    """Return values (n,) as an array of objects, none of which is taken apart."""
+    listed = list(values)
+    column = np.empty(len(listed), dtype=object)
+    column[:] = listed
+    return column
+
+
+def _made_choice(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a choice with rails and curves in place of plain values.
+
+    What a component does not give is absent from the track.
+    """
+    choice = {name: _made(name, value) for name, value in given.items()}
+    for part in ("pad", "boot"):
+        if COMPONENT in choice and f"{part}_stiffness" in choice:
+            choice = {f"{part}_loss_factor": None, f"{part}_static_stiffness": None} | choice
+    return choice
+
+
+def _made(name: str, given: Any) -> Any:
+    """Return what a plain value of a field stands for."""
+    if name == "rail" and isinstance(given, str):
+        if given not in RAILS:
+            raise ValueError(f"rail {brief(given)}: give one of {', '.join(RAILS)}")
+        return RAILS[given]
+    if name == "rail" and isinstance(given, Mapping):
+        try:
+            return Rail(**given)
+        except TypeError:
+            keys = ", ".join(each.name for each in dataclasses.fields(Rail))
+            raise ValueError(f"rail {brief(dict(given))}: give {keys}") from None
+    if isinstance(given, list | tuple):
+        rows: Any = given  # the curve checks them
+        return LossFactorCurve(rows) if name.endswith("loss_factor") else StiffnessCurve(rows)
+    return given
 
 
 @dataclass(frozen=True)
@@ -336,6 +417,12 @@ class _Sought:
                 )
             if name != COST and name not in numbers:
                 self.required.check_figures((name,), design)
+        for name in (*self.objectives, *self.cost):
+            if space.measured(name):
+                raise ValueError(
+                    f"{name}: a component that is measured over frequency has no single one; "
+                    "leave it out of the choices, or seek something else"
+                )
 
     def values(self, many: BatchSolution, prices: RealArray) -> RealArray:
         """Return the objectives of designs (n, objectives)."""
@@ -363,10 +450,12 @@ class _Trail:
         self.parts: list[BatchSolution] = []
         self._values: list[RealArray] = []
         self._slacks: list[RealArray] = []
+        self._places: list[RealArray] = []
 
     def add(self, many: BatchSolution, places: RealArray) -> tuple[RealArray, RealArray]:
         """Take in a generation; return what is to be minimised, and what may not be above zero."""
         self.parts.append(many)
+        self._places.append(places)
         self._values.append(self.sought.values(many, self.space.prices(places)))
         self._slacks.append(self.sought.required.slacks(many))
         return self.sought.minimised(self._values[-1]), -self._slacks[-1].min(axis=-1, keepdims=True)
@@ -388,6 +477,7 @@ class _Trail:
             slack=slack,
             governed_by=tuple(names[limit] for limit in slacks.argmin(axis=-1)),
             front=front[np.argsort(minimised[front, 0], kind="stable")],
+            chosen=self.space.components(np.concatenate(self._places)),
             seed=self.seed,
             generations=len(self.parts),
             stopped=stopped,

@@ -8,7 +8,7 @@ Table 1 and the known rail sections.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -30,7 +30,7 @@ from trackig_core.study.toml_format import (
 from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.fields import DesignError, check_number
 from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
-from trackig_core.track.rails import STEEL_MODULUS, Rail
+from trackig_core.track.rails import RAILS, STEEL_MODULUS, Rail
 from trackig_core.track.viscoelastic_law import relaxation
 
 FORMAT = "trackig catalogue"
@@ -118,6 +118,38 @@ class Component:
             law = relaxation(stiffness, values[f"{self.kind}_loss_factor"], self.stiffness_frequency)
             values[name] = law.stiffness(design.stiffness_frequency)
         return design.replace(**values)
+
+    def choice(self, design: TrackDesign) -> dict[str, Any]:
+        """Return this component as one that :func:`trackig_core.decide.find` may choose for a design.
+
+        Parameters
+        ----------
+        design : TrackDesign
+            The track; a stiffness that is stated at another frequency than its own is restated there.
+
+        Returns
+        -------
+        dict
+            Plain values [SI units], as a question and its file hold them: the name as ``"component"``, fields
+            that are known, curves as lists of rows, a known rail by its name.
+
+        Raises
+        ------
+        DesignError
+            If the track has no place for it.
+        """
+        fitted = self.fitted_to(design)
+        given = {name: getattr(fitted, name) for name, value in self.values.items() if value is not None}
+        return {"component": self.name, **{name: _plain(value) for name, value in given.items()}}
+
+
+def _plain(value: Any) -> Any:
+    """Return the value of a field as numbers, texts, and lists and dicts of them."""
+    if isinstance(value, Rail):
+        return value.name if RAILS.get(value.name) == value else asdict(value)
+    if isinstance(value, StiffnessCurve | LossFactorCurve):
+        return [list(row) for row in value.points]
+    return value
 
 
 @dataclass(frozen=True)

@@ -235,6 +235,13 @@ class TrackDesign:
         return dataclasses.replace(self, suspension=None, axle_positions=ONE_AXLE, speed=None, ground=None)
 
     @property
+    def without_statics(self) -> "TrackDesign":
+        """The design without its static stiffnesses, on which nothing depends but its static response."""
+        if self.pad_static_stiffness is None and self.boot_static_stiffness is None:
+            return self
+        return dataclasses.replace(self, pad_static_stiffness=None, boot_static_stiffness=None)
+
+    @property
     def one_unsprung_wheel(self) -> bool:
         """Whether one wheel without suspension stands over a support."""
         return self.suspension is None and self.axle_positions == ONE_AXLE

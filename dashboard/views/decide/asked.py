@@ -10,7 +10,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 import trackig_core as tig
-from dashboard import formats, theme
+from dashboard import theme
 from dashboard.client.exchange import notify
 from dashboard.compute.document import NextTick
 from dashboard.compute.inquiries import QUICK, WAITING, Inquiry, InquiryRunner, question_of
@@ -119,14 +119,8 @@ class Asked:
 
     async def _export(self, *_):
         """Save all figures of the answer."""
-        current = self.assessment.current
-        if current.summary is not None:
-            heading = replace(
-                Heading.of(self.snapshot.study(), [current], datetime.date.today()),
-                design=THAT_DESIGN,
-                fidelity=formats.FIDELITIES["exact"],
-            )
-            await self._worked(self.export, partial(written_answer, heading), self._save)
+        write = partial(written_answer, self.snapshot.study(), datetime.date.today())
+        await self._worked(self.export, write, self._save)
 
     async def _worked(self, pressed, work, then):
         """Do work on the answer off the event loop, a button at work meanwhile, and go on with it."""
@@ -166,8 +160,9 @@ def kept_answer(question, words, result):
     return answer, answer_page(answer, result)
 
 
-def written_answer(heading, question, words, result):
+def written_answer(study, date, question, words, result):
     """Return an answer as CSV (str)."""
+    heading = Heading.of_question(study, question, THAT_DESIGN, date)
     answer = replace(tig.decide.Answer.of(question, result), sentence=words)
     return answer_csv(answer, result, heading)
 

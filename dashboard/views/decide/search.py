@@ -1,5 +1,7 @@
 """Designs that comply, and the best of them."""
 
+import html
+
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
@@ -13,7 +15,6 @@ from dashboard.session.answers import FIGURE_WORDS
 from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside
 from dashboard.views.decide.inputs import choice, is_number, number_options
 from trackig_core.names import LONGEST_NAME
-from trackig_core.track.fields import SCATTERED, SLIDER_RANGES
 
 
 class Search(Asked):
@@ -21,8 +22,9 @@ class Search(Asked):
 
     kind = "find"
 
-    def __init__(self, snapshot, exchange, take, pin):
+    def __init__(self, snapshot, exchange, take, pin, shelf):
         super().__init__(snapshot, exchange)
+        self._shelf = shelf
         self._take, self._pin, self._chosen = take, pin, None
         self.free = pn.widgets.CheckBoxGroup(
             label="Free",
@@ -80,6 +82,9 @@ class Search(Asked):
         self.pin_name = pmui.TextInput(
             label="Name it", value="Found", max_length=LONGEST_NAME, size="small", width=220, **BOX
         )
+        self.parts = pn.pane.HTML(
+            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
+        )
         self.cloud = CloudFigure(self._choose)
         self.against.param.watch(self._offer_prices, "value")
         self.inquiry.param.watch(NextTick(self._grow), "so_far")
@@ -87,9 +92,9 @@ class Search(Asked):
     def settings(self):
         """Return what is asked about the current design."""
         design = self.assessment.current.design
-        choices = {kind: catalogued(kind, design) for kind in self.chosen.value}
+        choices = {kind: catalogued(kind, design, self._shelf.catalogue) for kind in self.chosen.value}
         choices = {kind: offered for kind, offered in choices.items() if offered}
-        taken = {name for kind, offered in choices.items() if kind != "rail" for name in offered[0]}
+        taken = {name for offered in choices.values() for each in offered for name in each}
         free = [name for name in self.free.value if is_number(design, name) and name not in taken]
         if not free and not choices:
             raise ValueError("Choose which numbers are free.")
@@ -125,7 +130,7 @@ class Search(Asked):
             f"{FIELDS[name].label}\n{formats.quantity_text(FIELDS[name].low)}–"
             f"{formats.quantity_text(FIELDS[name].high)} {FIELDS[name].unit}"
             for name in names
-        ]
+        ] + [f"{kind.capitalize()}\nby name" for kind in found.chosen]
         axes = [_axis(name) for name in found.objectives]
         reference = self.definition.reference_of(found.many.design(0))
         levels = found.many.gain_for(reference, self.definition.summation)
@@ -158,12 +163,21 @@ class Search(Asked):
 
     def _choose(self, row):
         self._chosen = row
+        found = self._found()
+        parts = (
+            []
+            if row is None or found is None
+            else [f"{kind.capitalize()}: {names[row]}" for kind, names in found.chosen.items()]
+        )
+        self.parts.object = f'<p role="status" class="note">{html.escape("; ".join(parts))}</p>'
         for button in (self.take, self.pin):
             button.disabled = row is None
 
+    def _found(self):
+        return self.inquiry.result if self.inquiry.so_far is None else self.inquiry.so_far
+
     def _design(self):
-        found = self.inquiry.result if self.inquiry.so_far is None else self.inquiry.so_far
-        return found.many.design(self._chosen)
+        return self._found().many.design(self._chosen)
 
     def _take_chosen(self, *_):
         self._take(self._design())
@@ -190,6 +204,7 @@ class Search(Asked):
             self.sentence,
             self.answered_row,
             pn.FlexBox(self.take, self.pin_name, self.pin, margin=(0, 12)),
+            self.parts,
             beside(*pictures),
             sizing_mode="stretch_width",
             margin=0,
@@ -202,10 +217,10 @@ CATALOGUED = {
     "block": "blocks of the catalogue",
     "boot": "boots of the catalogue",
 }
-"""What may be chosen from the bundled catalogue, by its kind of component."""
+"""What may be chosen from the catalogue that is open, by its kind of component."""
 
 
-def catalogued(kind, design):
+def catalogued(kind, design, catalogue):
     """Return what a search may choose from the catalogue: plain values, as a question takes them.
 
     Parameters
@@ -214,24 +229,17 @@ def catalogued(kind, design):
         A kind of component.
     design : trackig_core.TrackDesign
         The design; a single-stage one has no block or boot to choose.
+    catalogue : trackig_core.study.Catalogue
+        The catalogue.
 
     Returns
     -------
-    list of dict of str to float, or of str
-        Values by field of each component that has the same fields as the first; rails by their names.
+    list of dict
+        Each component with its name and values, measured ones with their curves.
     """
-    if kind == "rail":
-        return list(tig.RAILS)
     if kind in ("block", "boot") and not design.two_stage:
         return []
-    components = tig.study.bundled_catalogue().of_kind(kind).values()
-    fitted = [(each.fitted_to(design), each.values) for each in components]
-    fields = [name for name in SCATTERED if name.startswith(f"{kind}_") and name in SLIDER_RANGES]
-    return [
-        {name: getattr(made, name) for name in fields}
-        for made, values in fitted
-        if all(isinstance(values.get(name), float) for name in fields)
-    ]
+    return [each.choice(design) for each in catalogue.of_kind(kind).values()]
 
 
 def _varies(many, name):

@@ -36,12 +36,14 @@ class Decide(Tab):
         Where the current design complies, which the sliders show too.
     production : Production
         Where insertion gain of production is left for others to draw.
+    shelf : Shelf
+        The catalogue from which a search may choose.
     """
 
     title = "Decide"
     link_name = "decide"
 
-    def __init__(self, snapshot, exchange, feasibility, production):
+    def __init__(self, snapshot, exchange, feasibility, production, shelf):
         super().__init__()
         self._inputs, self._pins = snapshot.inputs, snapshot.pins
         self.how_far = HowFar(snapshot, exchange, feasibility)
@@ -49,7 +51,7 @@ class Decide(Tab):
         self.how_sure = HowSure(snapshot, exchange, production)
         self.what_scatters = WhatScatters(snapshot, exchange, self.how_sure)
         self.map = Map(snapshot, exchange, self._take)
-        self.search = Search(snapshot, exchange, self._take, self._pin)
+        self.search = Search(snapshot, exchange, self._take, self._pin, shelf)
         self.kept = KeptAnswers(snapshot.answers, exchange)
         snapshot.assessment.param.watch(self.refresh, "results")
 

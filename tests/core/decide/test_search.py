@@ -199,3 +199,81 @@ def test_a_map_without_a_specification_has_no_margin():
         design_map(SLAB, "wheel_mass", "wheel_mass")
     with pytest.raises(ValueError, match="points = "):
         design_map(SLAB, "pad_stiffness", "wheel_mass", points=(1, 3))
+
+
+CATALOGUE = tig.study.Catalogue.from_toml("""
+format = "trackig catalogue"
+version = 1
+name = "A company's own"
+
+[[rail]]
+name = "Own"
+mass_kg_per_m = 61.0
+second_moment_cm4 = 3000
+source = "works drawing"
+
+[[rail]]
+name = "60"
+mass_kg_per_m = 60.0
+second_moment_cm4 = 3038
+source = "Table 1"
+
+[[pad]]
+name = "Plain"
+stiffness_N_per_m = 2e8
+loss_factor = 0.2
+source = "data sheet"
+
+[[pad]]
+name = "Measured"
+stiffness_measured = [[10.0, 6e7, 0.1], [100.0, 8e7, 0.15], [1000.0, 1e8, 0.2]]
+static_stiffness_N_per_m = 5e7
+source = "test house"
+
+[[boot]]
+name = "Damping measured"
+stiffness_N_per_m = 2e7
+loss_factor_measured = [[10.0, 0.1], [500.0, 0.3]]
+source = "test house"
+""")
+
+
+def test_measured_components_are_chosen_with_their_curves_and_kept(specification):
+    stated = BLOCK.replace(pad_static_stiffness=9e7)
+    choices = {
+        kind: [each.choice(stated) for each in CATALOGUE.of_kind(kind).values()]
+        for kind in ("pad", "boot", "rail")
+    }
+    found = find(stated, specification, ["block_mass"], choices=choices, population=16, generations=3, seed=1)
+    table = found.to_dataframe()
+    assert {*table["pad"]} == {"Plain", "Measured"}
+    assert {*table["boot"]} == {"Damping measured"}
+    assert {*table["rail"]} == {"Own", "60"}
+    for row in range(0, 48, 7):
+        design, chosen = found.many.design(row), {kind: table[kind][row] for kind in choices}
+        expected = stated.replace(block_mass=design.block_mass)
+        for kind, name in chosen.items():
+            expected = CATALOGUE.of_kind(kind)[name].fitted_to(expected)
+        assert design == expected  # static stiffness of the pad and all
+        gain = tig.solve(design, "exact").insertion_gain
+        np.testing.assert_allclose(found.many.insertion_gain[row], gain, atol=0.01)
+    question = tig.decide.Question(
+        "find",
+        stated,
+        {"free": ["block_mass"], "choices": choices, "population": 16, "generations": 3, "seed": 1},
+        specification,
+    )
+    answer = tig.decide.Answer.of(question, found)
+    (kept,) = tig.Study.from_toml(tig.Study(stated, answers=[answer]).to_toml()).answers
+    assert kept == answer
+    assert kept.holds()
+
+
+def test_what_has_no_single_value_is_no_objective(specification):
+    pads = [each.choice(BLOCK) for each in CATALOGUE.of_kind("pad").values()]
+    with pytest.raises(ValueError, match="pad_stiffness: a component that is measured over frequency"):
+        find(BLOCK, specification, choices={"pad": pads}, objectives=("margin", "pad_stiffness"))
+    with pytest.raises(ValueError, match="rail 'Wood': give one of 60, "):
+        find(BLOCK, specification, choices={"rail": ["Wood"]})
+    with pytest.raises(ValueError, match=r"rail .*: give name, mass_per_metre, bending_stiffness"):
+        find(BLOCK, specification, choices={"rail": [{"rail": {"name": "Wood"}}]})

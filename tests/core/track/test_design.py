@@ -84,3 +84,10 @@ def test_designs_are_frozen_keys():
     assert BLOCK.replace(boot_stiffness=20e6) != BLOCK
     with pytest.raises(AttributeError):
         BLOCK.pad_stiffness = 1e6
+
+
+def test_a_design_without_statics_differs_in_nothing_else():
+    plain = tig.PRESETS["booted-block-low-mass"]
+    stated = plain.replace(pad_static_stiffness=80e6, boot_static_stiffness=12e6, speed=30.0)
+    assert stated.without_statics == plain.replace(speed=30.0)
+    assert plain.without_statics is plain

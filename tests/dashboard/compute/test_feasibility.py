@@ -57,6 +57,28 @@ def test_sliders_follow_inputs_without_any_solution(page):
     assert (page.panel.feasible, page.panel.stale) == ({}, False)
 
 
+def test_static_stiffness_is_asked_about_only_where_deflection_is_limited(page):
+    asked = []
+    page.feasibility.param.watch(lambda event: asked.append(event.new.design), "asked")
+    page.do(specification=tig.Specification([(63, -4.0)]))
+    page.do(pad_static_stiffness=80.0)
+    page.do(specification=LIMITS)
+    page.do(pad_static_stiffness=90.0)
+    stated = [BLOCK.replace(pad_static_stiffness=each) for each in (80e6, 90e6)]
+    assert list(dict.fromkeys(asked)) == [BLOCK, *stated]
+
+
+def test_a_limit_of_deflection_alone_bounds_what_the_rail_sinks_by(page):
+    """What the rail sinks by falls with stiffness, and does not depend on masses or damping."""
+    limit = tig.static_response(BLOCK.replace(boot_stiffness=20e6)).rail_deflection
+    page.do(specification=tig.Specification([], rail_deflection_limit=limit))
+    [(low, high)] = page.panel.feasible["boot_stiffness"]
+    # edges are found to 0.1 %
+    assert (low, high) == (pytest.approx(20.0, rel=1e-3), FIELDS["boot_stiffness"].high)
+    for name in ("block_mass", "wheel_mass", "boot_loss_factor"):
+        assert page.panel.feasible[name] == [(FIELDS[name].low, FIELDS[name].high)]
+
+
 def test_what_is_of_an_earlier_design_is_marked_until_the_answer_is_there(page):
     page.do(specification=LIMITS)
     stale = []

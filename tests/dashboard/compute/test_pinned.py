@@ -102,6 +102,20 @@ def test_what_is_not_known_is_solved_at_rest_and_told(pins, instant_store):
     assert told[-1] == {pin.key for pin in new}
 
 
+def test_pins_that_differ_in_static_stiffness_share_one_solution(pins, make_store, fake_picture):
+    solved = []
+
+    def solve(key, *_):
+        solved.append(key)
+        return fake_picture(key[0])
+
+    pinned = PinnedSummaries(pins, make_store(solve), make_store(without_exact_answer))
+    designs = [varied(0).replace(pad_static_stiffness=each) for each in (None, 50e6, 80e6)]
+    new = on_a_loop(pins.add_all, [(design, "", None) for design in designs])
+    assert solved == [(varied(0), AT_REST)]
+    assert [pinned.summaries[pin.key].design for pin in new] == designs
+
+
 def test_pins_that_were_there_before_are_solved_too(pins, instant_store):
     pin = pins.add(varied(0))
     assert set(on_a_loop(PinnedSummaries, pins, instant_store, instant_store).summaries) == {pin.key}

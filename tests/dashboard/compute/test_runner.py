@@ -150,6 +150,31 @@ def test_going_back_comes_from_the_cache(instant_store):
     assert session.outcome.summary.design.pad_stiffness == 200e6
 
 
+def test_another_static_stiffness_is_shown_of_the_same_solution(make_store, fake_picture):
+    solved = []
+
+    def solve(key, *_):
+        solved.append(key)
+        return fake_picture(key[0], fidelity=key[1])
+
+    session = Session(make_store(solve))
+    session.do(session.runner.start)
+    solution = session.outcome.summary.solution
+    session.change(pad_static_stiffness=80, boot_static_stiffness=12)
+    assert session.outcome.summary.design == session.inputs.to_design()
+    assert session.outcome.summary.design.boot_static_stiffness == 12e6
+    assert session.outcome.summary.solution is solution
+    assert session.outcome.preset_summary.design == session.inputs.preset_design
+    assert (session.outcome.from_cache, session.outcome.stale) == (True, False)
+    assert solved == [(session.inputs.preset_design, AT_REST)]
+    session.change(pad_static_stiffness=None)
+    assert session.outcome.summary.design == session.inputs.to_design()
+    # what the dynamics depends on is solved once at either fidelity, whatever is stated of statics
+    session.change(stiffness_frequency=10)
+    assert [(key[0].stiffness_frequency, key[1]) for key in solved[1:]] == [(10, MOVING), (10, AT_REST)]
+    assert session.outcome.summary.design.boot_static_stiffness == 12e6
+
+
 def test_a_change_is_followed_live_and_solved_as_in_the_paper_at_rest(instant_store):
     session = Session(instant_store)
     session.do(session.runner.start)

@@ -9,6 +9,7 @@ import trackig_core as tig
 from dashboard import formats
 from dashboard.report.data_sheet import data_sheet
 from dashboard.session.heading import Heading
+from dashboard.session.results import SolutionSummary
 
 DAY = datetime.date(2026, 3, 5)
 HOSTILE = "<script>alert(1)</script>"
@@ -36,7 +37,7 @@ def test_everything_of_the_design_is_on_it(sheet):
         formats.definition_text("energy", "line").capitalize().replace("'", "&#39;"),
         formats.frequency_text(natural.loaded_track).removesuffix(" Hz"),
         formats.frequency_text(natural.coupled_block).removesuffix(" Hz"),
-        "Source &amp; so on, this track",
+        "Source: Source &amp; so on.",
         f"{result.level.unweighted:.1f} dB, {result.level.a_weighted:.1f} dB(A)",
         "<td>28</td>",
         "<svg",
@@ -65,3 +66,12 @@ def test_hatched_bands_are_named(session, measured_result):
     text = data_sheet(measured_result, heading)
     assert f"Hatched bands lie beyond what was measured of {heading.design}." in text
     assert "<pattern " in text
+
+
+def test_how_a_design_was_solved_is_said_of_one_beyond_the_paper(session):
+    design = tig.PRESETS["booted-block-low-mass"].replace(ground=tig.GROUNDS["soft clay"])
+    session.show("booted-block-low-mass")
+    session.outcome.summary = SolutionSummary.of(tig.solve(design, "exact"), 1.0)
+    result = session.assessment.current
+    text = data_sheet(result, Heading.of(session.snapshot.study(), [result], DAY))
+    assert "Solved by frequency-domain solution." in text

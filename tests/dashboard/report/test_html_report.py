@@ -330,3 +330,23 @@ def test_bands_beyond_what_was_measured_are_hatched_and_named(measured_result, s
     assert "<pattern " in text
     plain = html_report(tig.Study(design), known, date=DAY, version="1")
     assert formats.extrapolated_text("This design") not in plain
+
+
+def test_what_is_assumed_is_what_the_designs_have(summary):
+    beyond = LOW.replace(
+        suspension=tig.VEHICLES["metro"].suspension,
+        axle_positions=(0.0, 2.4),
+        ground=tig.GROUNDS["soft clay"],
+    )
+    simple = summary("booted-block-low-mass")
+    summaries = {LOW: simple, beyond: SolutionSummary.of(tig.solve(beyond, "exact"), 1.0)}
+    alone = " ".join(html_report(tig.Study(LOW), summaries, date=DAY, version="9").split())
+    assert "One wheel; unsprung mass only; rigid ground." in alone
+    both = tig.Study(LOW, [tig.PinnedDesign("On clay", beyond)])
+    both = " ".join(html_report(both, summaries, date=DAY, version="9").split())
+    assert "This design: one wheel; unsprung mass only; rigid ground." in both
+    words = (
+        "2 wheels at 0, 2.4 m, independent roughness; vehicle: metro (generic); ground that yields: soft clay"
+    )
+    assert f"On clay: {words} (generic)." in both
+    assert "time stepping at the paper&#39;s resolution and frequency-domain solution" in both

@@ -18,8 +18,10 @@ from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
 from dashboard.session.production import Production
 from dashboard.session.results import Outcome
+from dashboard.session.shelf import Shelf
 from dashboard.views.decide.asked import NO_SPECIFICATION
 from dashboard.views.decide.tab import Decide
+from tests.core.decide.test_search import CATALOGUE
 from tests.waiting import on_a_loop
 
 LIMITS = tig.Specification(
@@ -38,13 +40,13 @@ class Session:
         self.assessment = Assessment(self.inputs, outcome, self.definition, self.pins, self.pinned)
         self.assessment.specification = specification
         self.snapshot = SessionSnapshot(self.inputs, self.definition, self.pins, self.assessment)
-        self.saved, self.production = [], Production()
+        self.saved, self.production, self.shelf = [], Production(), Shelf()
         self.exchange = SimpleNamespace(save=lambda *file: self.saved.append(file), introduce=lambda: None)
         self.do(self._make)
 
     def _make(self):
         self.feasibility = Feasibility(self.inputs, self.definition, self.assessment)
-        self.view = Decide(self.snapshot, self.exchange, self.feasibility, self.production)
+        self.view = Decide(self.snapshot, self.exchange, self.feasibility, self.production, self.shelf)
 
     def do(self, action, *arguments, **values):
         """Call something on an event loop, and wait for all that it set going."""
@@ -248,7 +250,7 @@ def test_every_answer_can_be_saved_with_all_that_obtains_it_again(session, name)
     assert len(table) == 1 + len(frame)
     numbers = frame.select_dtypes("number").columns
     column = [float(row[table[0].index(numbers[0])]) for row in table[1:]]
-    np.testing.assert_array_equal(column, frame[numbers[0]])
+    np.testing.assert_allclose(column, frame[numbers[0]], rtol=5.1e-6)
 
 
 def test_a_change_for_each_field_is_the_library_s(session):
@@ -319,7 +321,7 @@ def test_a_search_chooses_from_the_catalogue_within_a_deflection(session):
     settings = view.settings()
     assert settings["free"] == ["boot_stiffness"], "the pad's stiffness comes with the pad"
     assert settings["max_deflection"] == pytest.approx(1.2e-3)
-    assert settings["choices"]["rail"] == list(tig.RAILS)
+    assert [each["rail"] for each in settings["choices"]["rail"]] == list(tig.RAILS)
     pads = tig.study.bundled_catalogue().of_kind("pad")
     assert [each["pad_stiffness"] for each in settings["choices"]["pad"]] == [
         each.values["pad_stiffness"] for each in pads.values()
@@ -328,8 +330,36 @@ def test_a_search_chooses_from_the_catalogue_within_a_deflection(session):
     found = tig.decide.Question("find", BLOCK, settings, specification=LIMITS).ask()
     session.do(view.show, found)
     ticks = view.cloud.fields.xaxis.major_label_overrides
-    assert [label.partition("\n")[0] for label in ticks.values()] == [
+    assert [label.strip().partition("\n")[0] for label in ticks.values()] == [
         "Pad stiffness",
         "Pad loss factor",
         "Boot stiffness",
+        "Rail",
+        "Pad",
     ]
+
+
+def test_a_search_chooses_measured_pads_of_the_catalogue_that_is_open(session):
+    session.shelf.catalogue = CATALOGUE
+    view = session.view.search
+    view.chosen.value = ["pad"]
+    session.do(view.ask)
+    found = view.inquiry.result
+    assert {*found.chosen["pad"]} == {"Plain", "Measured"}
+    assert view.cloud.fields.xaxis.major_label_overrides[2] == "Pad\nby name"
+    data = view.cloud.designs.data
+    measured = int(np.flatnonzero(found.chosen["pad"][data["row"]] == "Measured")[0])
+    plain = int(np.flatnonzero(found.chosen["pad"][data["row"]] == "Plain")[0])
+    assert (data["ys"][measured][2], data["ys"][plain][2]) == (0.0, 1.0)
+    view.cloud.designs.selected.indices = [measured]
+    assert "Pad: Measured" in view.parts.object
+    session.do(view.take.param.trigger, "clicks")
+    pad = CATALOGUE.of_kind("pad")["Measured"]
+    taken = session.inputs.to_design()
+    assert pad.fitted_to(taken) == taken
+    answer = kept(session, view)
+    (opened,) = tig.Study.from_toml(session.snapshot.study().to_toml()).answers
+    assert opened == answer
+    ((_, row),) = session.view.kept.rows
+    session.do(row.again.param.trigger, "clicks")
+    assert "The same figures came out" in row.outcome.object

@@ -88,7 +88,9 @@ def test_a_check_is_the_librarys(summary):
     assert verified.problem == ""
     expected = tig.verify(shown.solution)
     np.testing.assert_array_equal(verified.theory.exact.energy, expected.exact.energy)
-    assert check(shown) is verified
+    assert check(shown).theory is verified.theory
+    stiffer = shown.of_design(shown.design.replace(pad_static_stiffness=200e6))
+    assert (check(stiffer).summary, check(stiffer).theory) == (stiffer, verified.theory)
 
 
 def test_a_track_without_exact_answer_says_why(outcome, view, fake_picture):
