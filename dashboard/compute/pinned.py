@@ -1,20 +1,23 @@
-"""The pictures of pinned designs: the paper's runs, solved off the event loop, from the sessions' store.
+"""The pictures of pinned designs, solved off the event loop, from the sessions' stores.
 
-A session asks for one of them at a time, so that its pins never take every worker from the current designs.
-A pin that the store knows has its picture at once, and a pin that is gone has none.
+Each has its exact curve first, a matter of milliseconds; the paper's run, which brings the force, takes its
+place when it is there. A session asks for one run at a time, so that its pins never take every worker from
+the current designs. A pin whose run the store knows has its picture at once, and a pin that is gone has none.
 """
 
 import asyncio
+import contextlib
 import logging
 from functools import partial
 from types import MappingProxyType
 
 import param
 
+import trackig_core as tig
 from dashboard.compute.document import one_message
 from dashboard.compute.latest import Latest, readable
 from dashboard.compute.runner import LOOK_EVERY
-from dashboard.compute.workers import AT_REST, key_of
+from dashboard.compute.workers import AT_ONCE, AT_REST, key_of
 
 NOTHING = MappingProxyType({})
 
@@ -28,16 +31,17 @@ class PinnedSummaries(param.Parameterized):
     ----------
     pins : Pins
         What is watched; there are never more pictures than pins.
-    store : SolutionStore
-        Where pictures at rest come from.
+    store, live_store : SolutionStore
+        Where pictures at rest come from, and exact curves.
     """
 
     summaries = param.Parameter(default=NOTHING, doc="Picture of each pin that has one, by the pin's key.")
-    problems = param.Parameter(default=NOTHING, doc="Why a pin has none and will get none, by its key.")
+    problems = param.Parameter(default=NOTHING, doc="Why a pin's run has failed, by its key.")
 
-    def __init__(self, pins, store):
+    def __init__(self, pins, store, live_store):
         super().__init__()
-        self._pins, self._store = pins, store
+        self._pins = pins
+        self._stores = {AT_REST: store, AT_ONCE: live_store}
         self._latest = Latest(self._obtain_missing)
         self._closed = False
         self._watchers = [
@@ -56,7 +60,7 @@ class PinnedSummaries(param.Parameterized):
     def _take_what_is_kept(self, *_):
         summaries, problems = self._of_pinned(self.summaries), self._of_pinned(self.problems)
         for pin in self._missing():
-            kept = self._store.kept(key_of(pin.design, AT_REST))
+            kept = self._stores[AT_REST].kept(key_of(pin.design, AT_REST))
             if kept is not None:
                 summaries[pin.key] = kept.of_design(pin.design)
         if summaries != self.summaries or problems != self.problems:
@@ -67,25 +71,44 @@ class PinnedSummaries(param.Parameterized):
         return {pin.key: by_key[pin.key] for pin in self._pins.pinned if pin.key in by_key}
 
     def _missing(self):
+        """Return the pins whose run is neither there nor has failed."""
         return [
-            pin for pin in self._pins.pinned if pin.key not in self.summaries and pin.key not in self.problems
+            pin
+            for pin in self._pins.pinned
+            if pin.key not in self.problems and self._fidelity(pin) != AT_REST
         ]
 
+    def _fidelity(self, pin):
+        """Return the fidelity of a pin's picture, or None where there is none."""
+        summary = self.summaries.get(pin.key)
+        return None if summary is None else summary.solution.fidelity
+
     async def _obtain_missing(self, document):
+        await self._draw_exact(document)
         for pin in self._missing():
+            # what was pinned meanwhile is drawn before the next run, which may take long
+            await self._draw_exact(document)
             if not self._wanted(pin):
                 continue
             try:
-                summary = await self._obtain(pin)
+                summary = await self._obtain(pin, AT_REST)
             except Exception as error:
                 self._publish(document, pin, "problems", readable(error))
             else:
-                if summary is not None:
-                    self._publish(document, pin, "summaries", summary)
+                self._publish(document, pin, "summaries", summary)
 
-    async def _obtain(self, pin):
-        """Return the picture of a pin, or None if it was removed meanwhile."""
-        job = self._store.request(key_of(pin.design, AT_REST), owner=self)
+    async def _draw_exact(self, document):
+        """Give the exact curve to pins that have no picture, if they have such a curve."""
+        for pin in self._missing():
+            if self._fidelity(pin) is None:
+                # what has no exact curve is explained by its run
+                with contextlib.suppress(tig.DesignError):
+                    self._publish(document, pin, "summaries", await self._obtain(pin, AT_ONCE))
+
+    async def _obtain(self, pin, fidelity):
+        """Return a picture of a pin, or None if it was removed meanwhile."""
+        store = self._stores[fidelity]
+        job = store.request(key_of(pin.design, fidelity), owner=self, urgent=fidelity == AT_ONCE)
         try:
             future = asyncio.wrap_future(job.future)
             # an abandoned job may still raise; nobody is left to hear it
@@ -94,7 +117,7 @@ class PinnedSummaries(param.Parameterized):
                 await asyncio.wait({future}, timeout=LOOK_EVERY)
             return future.result().of_design(pin.design) if future.done() else None
         finally:
-            self._store.release(job)
+            store.release(job)
 
     def _wanted(self, pin):
         return not self._closed and any(each.key == pin.key for each in self._pins.pinned)
@@ -107,7 +130,8 @@ class PinnedSummaries(param.Parameterized):
             document.add_next_tick_callback(partial(self._put, pin, name, value, document))
 
     def _put(self, pin, name, value, document=None):
-        if not self._wanted(pin):
+        # a run that was kept may have come before the curve that was asked for
+        if not self._wanted(pin) or self._fidelity(pin) == AT_REST:
             return
         try:
             with one_message(document):

@@ -9,7 +9,7 @@ from bokeh.models import ColumnDataSource, CustomJSHover, GlyphRenderer, HoverTo
 from dashboard import theme
 from dashboard.figures.axes import LEVEL_ROOM, LEVEL_STEP, AxisEnds, show_bands
 from dashboard.figures.insertion_gain import ALONE_TOOLTIPS, NO_LEVELS, PIN_HOVER, pin_columns
-from dashboard.figures.legends import Legend, PinnedLines, pinned_entry, with_legend
+from dashboard.figures.legends import Legend, PinnedLines, solved_entry, with_legend
 from dashboard.figures.overlays import band_overlay, rendered
 from dashboard.figures.swatches import swatch_svg
 
@@ -109,7 +109,7 @@ class DesignsFigure:
         self._reference.visible = reference is not None
         own = [] if current is None else [THIS_DESIGN]
         own += [] if reference is None else [REFERENCE_TRACK]
-        self.legend.show([*own, *map(pinned_entry, pinned)])
+        self.legend.show([*own, *map(solved_entry, pinned)])
         self._name_on_hover(pinned, current is not None)
         return [each for each in (*of_pins, current, reference) if each is not None]
 

@@ -20,7 +20,14 @@ from tsdownsample import MinMaxDownsampler
 
 from dashboard import formats, theme
 from dashboard.figures.axes import AxisEnds, blank_figure
-from dashboard.figures.legends import Legend, PinnedLines, are_the_same, pinned_entry, with_legend
+from dashboard.figures.legends import (
+    WITHOUT_FORCE,
+    Legend,
+    PinnedLines,
+    are_the_same,
+    pinned_entry,
+    with_legend,
+)
 from dashboard.figures.swatches import swatch_svg
 
 TIME_AXIS = (-0.005, 0.25)
@@ -178,10 +185,12 @@ class ForceFigure:
         current : DesignResult
             The current design, stepped in time.
         pinned : tuple of DesignResult
-            Pinned designs, stepped in time; the same ones again are not sent again.
+            Pinned designs, solved; those not stepped in time are listed without a line. The same ones again
+            are not sent again.
         """
-        new = not are_the_same(pinned, self._drawn)
-        self._summary, self._drawn = current.summary, pinned
+        stepped = tuple(each for each in pinned if each.summary.time is not None)
+        new = not are_the_same(stepped, self._drawn)
+        self._summary, self._drawn = current.summary, stepped
         forces = [self._summary.total_force, self._summary.loaded_support_force]
         self._forces.show(
             *rounded_ends(min(each.min() for each in forces), max(each.max() for each in forces))
@@ -190,19 +199,19 @@ class ForceFigure:
         self._send(*ends)
         if new:
             self._send_pinned(*ends)
-            self._pinned.show(pinned)
-            totals = [each.summary.total_force for each in pinned]
+            self._pinned.show(stepped)
+            totals = [each.summary.total_force for each in stepped]
             self._reach = [(total.min(), total.max()) for total in totals]
-        self._list_what_is_drawn()
+        self._list_what_is_drawn([each for each in pinned if each not in stepped])
 
-    def _list_what_is_drawn(self):
+    def _list_what_is_drawn(self, without_force=()):
         """List what is drawn, and how far those reach that leave the frame."""
         own = [(words, swatch_svg(colour, dash)) for words, colour, dash in (ALL_SUPPORTS, UNDER_THE_WHEEL)]
         pinned = [
             pinned_entry(each, formats.beyond_text(*reach, *self._forces.home))
             for each, reach in zip(self._drawn, self._reach, strict=True)
         ]
-        self.legend.show(own + pinned)
+        self.legend.show(own + pinned + [pinned_entry(each, WITHOUT_FORCE) for each in without_force])
 
     def _zoomed(self, event):
         if self._summary is not None:

@@ -36,7 +36,7 @@ from dashboard.figures.legends import (
     Legend,
     PinnedLines,
     are_the_same,
-    pinned_entry,
+    solved_entry,
     with_legend,
 )
 from dashboard.figures.swatches import (
@@ -393,7 +393,7 @@ class InsertionGainFigure:
         self.legend.show(
             [
                 *(entry for there, entry in drawn if there),
-                *map(pinned_entry, pinned),
+                *map(solved_entry, pinned),
                 *((f"{MEASURED} {each.name}", point_svg(shape, theme.THEORY)) for each, shape in points),
             ]
         )

@@ -68,6 +68,18 @@ def pinned_entry(result, remark=""):
     return result.name + remark, swatch_svg(result.colour, result.dash)
 
 
+def solved_entry(result):
+    """Return what a legend says of insertion gain (DesignResult): where it has no run yet, that too."""
+    return pinned_entry(result, EXACT_CURVE if result.summary.solution.fidelity == "exact" else "")
+
+
+EXACT_CURVE = " · exact curve"
+"""Remark on a design whose run is not there."""
+
+WITHOUT_FORCE = EXACT_CURVE + ", no force"
+"""The same where its force would be drawn."""
+
+
 def legend_above(plot, columns=2):
     """Put the legend of a figure whose curves never change above its frame, where it covers none."""
     legend = plot.legend[0]

@@ -395,8 +395,8 @@ class FilmPlayer(_Player):
     view : SideView
         The drawing.
     film : bokeh.models.ColumnDataSource
-        Named ``film``, a row per frame: ``time`` [ms], ``wheel_0`` ..., ``rail_0`` ... and ``block_0`` ...
-        [µm], from one wheel to one side, or left to right.
+        Named ``film``, a row per frame: ``time`` [ms], ``wheel_0`` ..., ``rail_0`` ..., ``block_0`` ... and
+        ``foot_0`` ... [µm], from one wheel to one side, or left to right.
     slider, play, speed
         Time [ms], play and pause, and how slow.
     """
@@ -422,20 +422,18 @@ class FilmPlayer(_Player):
         motion : trackig_core.Motion
             The film.
         """
-        two_stage = motion.block is not None
-        moved = [motion.wheels, motion.rail, *([motion.block] if two_stage else [])]
-        largest = MICROMETRES * max(np.abs(each).max() for each in moved)
-        # a run records no feet: they are drawn at rest
-        self.view.lay_out(Places.of(motion), two_stage, yields=False, largest=largest, unit="µm")
+        parts = {"wheel": motion.wheels, "rail": motion.rail, "block": motion.block, "foot": motion.foot}
+        moved = {part: each for part, each in parts.items() if each is not None}
+        largest = MICROMETRES * max(np.abs(each).max() for each in moved.values())
+        self.view.lay_out(Places.of(motion), "block" in moved, "foot" in moved, largest, unit="µm")
         time = 1000 * motion.time
         self.slider.update(start=float(time[0]), end=float(time[-1]))
         columns = {"time": time}
-        for part, displacements in zip(("wheel", "rail", "block"), moved, strict=False):
+        for part, displacements in moved.items():
             columns |= {f"{part}_{i}": _micrometres(each) for i, each in enumerate(displacements.T)}
         start = int(np.argmin(np.abs(time - self.slider.value)))
-        block = motion.block[start] if two_stage else NOTHING
-        wheels, rail = motion.wheels[start], motion.rail[start]
-        self.view.move(*(MICROMETRES * each for each in (wheels, rail, block)), NOTHING)
+        now = [moved[part][start] if part in moved else NOTHING for part in parts]
+        self.view.move(*(MICROMETRES * each for each in now))
         # last, since it makes the browser draw the instant at which its own slider stands
         self.film.data = columns
 
@@ -457,7 +455,8 @@ FILM_FRAME = """
     const frame = Math.max(0, Math.min(time.length - 1, at))
     const of_rail = element => film.data[`rail_${element}`][frame]
     const of_block = support => film.data[`block_${support}`][frame]
-    const of_foot = () => 0
+    const yields = "foot_0" in film.data
+    const of_foot = support => yields ? film.data[`foot_${support}`][frame] : 0
     const of_wheel = wheel => film.data[`wheel_${wheel}`][frame]
 """
 

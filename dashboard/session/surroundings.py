@@ -27,7 +27,7 @@ CHOICES = {
 WORDS = {
     "suspension": (
         "Suspension, bogie and body above the wheel; the unsprung mass stays as its slider says. Round "
-        "figures of the kind, not those of a vehicle (regional: Manchester Benchmarks)."
+        "figures of the kind, not those of a vehicle."
     ),
     "axle_positions": (
         "The second axle of the vehicle's bogie on the same rail; without a vehicle that of a regional one. "

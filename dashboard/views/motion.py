@@ -34,11 +34,6 @@ FILM_WORDS = (
 )
 
 
-FEET_WORDS = (
-    "The supports' feet move on this ground too; a run does not record them, the steady vibration does."
-)
-
-
 class Motion(Subject):
     """Rail, wheel and blocks in motion."""
 
@@ -97,8 +92,7 @@ class Motion(Subject):
     def show(self, answer):
         """Show a film."""
         self.film.show(answer)
-        _, design = self.question.answered
-        self.film_words.object = FILM_WORDS if design.ground is None else f"{FILM_WORDS} {FEET_WORDS}"
+        self.film_words.object = FILM_WORDS
 
     def _jump(self, which):
         def jump():

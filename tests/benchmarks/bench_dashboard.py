@@ -19,7 +19,7 @@ from bokeh.protocol import Protocol
 import trackig_core as tig
 from dashboard import app
 from dashboard.compute.pinned import PinnedSummaries
-from dashboard.compute.workers import AT_REST, MOVING, shared_store, solve_summary
+from dashboard.compute.workers import AT_REST, MOVING, shared_live_store, shared_store, solve_summary
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
 from dashboard.session.pins import Pins
@@ -57,7 +57,7 @@ def picture_of(design, fidelity):
 def test_a_frame_on_the_server(benchmark, tell):
     """From a new picture to the message for the browser: figures patched, words changed, serialised."""
     outcome, definition, pins = Outcome(), GainDefinition(), Pins()
-    pinned = PinnedSummaries(pins, shared_store())
+    pinned = PinnedSummaries(pins, shared_store(), shared_live_store())
     assessment = Assessment(DesignInputs(), outcome, definition, pins, pinned)
     views = [Status(outcome, None, None), Explore(outcome, definition, pins, assessment)]
     document = Document()

@@ -12,12 +12,13 @@ import numpy as np
 def run_ring(design, pad, boot, bays, per_bay, time_step, steps, *, step=1e-4, frames=None, rough_wheel=None):
     """Return support forces (steps, bays) [N], and the final rail, block and wheel displacements [m].
 
-    ``pad`` and ``boot`` are relaxation laws, ``boot`` None when single-stage. A list ``frames`` takes wheel,
-    rail and blocks in one row as they stand at each step. ``rough_wheel`` is the only one that meets the
+    ``pad`` and ``boot`` are relaxation laws, ``boot`` None when single-stage. A list ``frames`` takes wheels,
+    rail, blocks and, of what is more than the simplified model, feet
+    in one row as they stand at each step. ``rough_wheel`` is the only one that meets the
     step.
     """
     if design.simplified != design:
-        return _run_surrounded(design, pad, boot, bays, per_bay, time_step, steps, step, rough_wheel)
+        return _run_surrounded(design, pad, boot, bays, per_bay, time_step, steps, step, rough_wheel, frames)
     dx, dt = design.fastener_spacing / per_bay, time_step
     m, EI = design.rail.mass_per_metre, design.rail.bending_stiffness
     a, v = np.zeros(bays * per_bay), np.zeros(bays * per_bay)
@@ -45,7 +46,7 @@ def run_ring(design, pad, boot, bays, per_bay, time_step, steps, *, step=1e-4, f
     return forces, a, b, w
 
 
-def _run_surrounded(design, pad, boot, bays, per_bay, dt, steps, step, rough_wheel):
+def _run_surrounded(design, pad, boot, bays, per_bay, dt, steps, step, rough_wheel, frames):
     """As :func:`run_ring`, of wheels, bogies, bodies and feet; the last returned are the wheels [m]."""
     dx, m, EI = design.fastener_spacing / per_bay, design.rail.mass_per_metre, design.rail.bending_stiffness
     at = [round(x * 3 / design.fastener_spacing) * per_bay // 3 for x in design.axle_positions]
@@ -67,6 +68,11 @@ def _run_surrounded(design, pad, boot, bays, per_bay, dt, steps, step, rough_whe
     pad_memory, boot_memory = np.zeros((3, bays)), np.zeros((3, bays))
     forces = np.empty((steps, bays))
     for n in range(steps):
+        rough = [
+            step * min(max(n + 1 - late[j], 0.0), 1.0) * (rough_wheel is None or j == rough_wheel)
+            for j in range(len(at))
+        ]
+        before = np.concatenate([axles[:, 0] + rough, a, b])
         fourth = np.roll(a, 2) - 4 * np.roll(a, 1) + 6 * a - 4 * np.roll(a, -1) + np.roll(a, -2)
         if boot is None:
             u, y, z = _foot(design.ground, pad, a[::per_bay], pad_memory, u, y, z, dt)
@@ -76,15 +82,15 @@ def _run_surrounded(design, pad, boot, bays, per_bay, dt, steps, step, rough_whe
             u, y, z = _foot(design.ground, boot, b, boot_memory, u, y, z, dt)
             g = _spring(boot, b - u, boot_memory, dt)
             vb += dt * (f - g) / design.block_mass
+        if frames is not None:
+            frames.append(np.concatenate([before, u]))
         v -= dt * EI / (m * dx**4) * fourth
         v[::per_bay] -= dt * f / (m * dx)
         for j, element in enumerate(at):
-            here = rough_wheel is None or j == rough_wheel
-            rough = step * min(max(n + 1 - late[j], 0.0), 1.0) * here
-            c = design.contact_stiffness * (axles[j, 0] + rough - a[element % len(a)])
+            c = design.contact_stiffness * (axles[j, 0] + rough[j] - a[element % len(a)])
             load = np.array([-c, 0.0, 0.0]) - spring @ axles[j]
-            before = (mass - dashpot * dt / 2) @ speeds[j] + dt * load
-            speeds[j] = np.linalg.solve(mass + dashpot * dt / 2, before)
+            momentum = (mass - dashpot * dt / 2) @ speeds[j] + dt * load
+            speeds[j] = np.linalg.solve(mass + dashpot * dt / 2, momentum)
             v[element % len(a)] += dt * c / (m * dx)
         forces[n] = g if design.ground is None else design.ground.stiffness * u + design.ground.damping * y
         a += dt * v

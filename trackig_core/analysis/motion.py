@@ -1,7 +1,8 @@
-"""The film: how rail, blocks and wheel move after the step, from a run of its own.
+"""The film: how rail, blocks, feet and wheels move after the step, from a run of its own.
 
 A run as at live fidelity (see :mod:`trackig_core.time_domain.adaptive_grid`), short, that records every
-rail element and every block near the wheel. Frames are samples of the low-passed displacements, SI units,
+rail element, every block and, where the ground yields, every foot near the wheel. Frames are samples of the
+low-passed displacements, SI units,
 positive towards the ground; the track to the left of one wheel is the mirror image of that to the right. The
 step reaches several wheels each with its delay, or all at once where their roughness is independent.
 The wheel begins one step below a rail at rest, squeezing the contact spring (see
@@ -56,6 +57,8 @@ class Motion:
         Displacement of the rail.
     block : numpy.ndarray (frames, supports) [m] or None
         Displacement of the blocks; None when single-stage.
+    foot : numpy.ndarray (frames, supports) [m] or None
+        Displacement of the supports' feet; None on rigid ground.
     step : float [m]
         Height of the step.
     """
@@ -67,6 +70,7 @@ class Motion:
     wheels: RealArray = field(repr=False)
     rail: RealArray = field(repr=False)
     block: RealArray | None = field(repr=False)
+    foot: RealArray | None = field(repr=False)
     step: float
 
     @property
@@ -119,11 +123,12 @@ def film(
     first = 0 if grid.symmetric else on.min() // per_bay - bays
     supports = np.arange(first, -(-on.max() // per_bay) + bays + 1)
     elements = np.arange(supports[0] * per_bay, supports[-1] * per_bay + 1)
-    probes = Probes(rail=tuple(elements), blocks=tuple(supports))
+    two_stage, yields = model.design.two_stage, model.design.ground is not None
+    probes = Probes(tuple(elements), *(tuple(supports) if there else () for there in (two_stage, yields)))
     run = Run(model, grid, memory_order=adaptive_grid.MEMORY_ORDER, step=step, probes=probes)
     samples = run.collect(grid.steps, cancelled=cancelled)
     moved = samples[::STRIDE, grid.stored_bays :]
-    wheels, rail, block = np.split(moved, [on.size, on.size + elements.size], axis=1)
+    wheels, rail, below = np.split(moved, [on.size, on.size + elements.size], axis=1)
     return Motion(
         time=run.filter.times(len(samples))[::STRIDE],
         position=elements.astype(np.float64) * grid.dx,
@@ -131,7 +136,8 @@ def film(
         wheel_position=on * grid.dx,
         wheels=wheels,
         rail=rail,
-        block=block if model.design.two_stage else None,
+        block=below[:, : supports.size] if two_stage else None,
+        foot=below[:, -supports.size :] if yields else None,
         step=step,
     )
 

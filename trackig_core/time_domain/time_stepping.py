@@ -213,15 +213,18 @@ class Probes:
         Rail elements, counted from the wheel.
     blocks : tuple of int
         Supports whose block is recorded, counted from the wheel; zero when single-stage.
+    feet : tuple of int
+        Supports whose foot is recorded, counted so too; zero on rigid ground.
     """
 
     rail: tuple[int, ...] = (0,)
     blocks: tuple[int, ...] = (0,)
+    feet: tuple[int, ...] = ()
 
     @property
     def count(self) -> int:
         """Displacements recorded, the wheel's among them."""
-        return 1 + len(self.rail) + len(self.blocks)
+        return 1 + len(self.rail) + len(self.blocks) + len(self.feet)
 
 
 LOADED_SUPPORT = Probes()
@@ -393,7 +396,7 @@ class Run:
         Returns
         -------
         numpy.ndarray (samples, stored_bays + wheels + probes)
-            Forces [N]; displacements of the wheels and of the probes on rail and blocks [m].
+            Forces [N]; displacements of the wheels and of the probes on rail, blocks and feet [m].
 
         Raises
         ------

@@ -44,6 +44,7 @@ def advance(
     onsets: RealArray,
     rail_probes: IntArray,
     block_probes: IntArray,
+    foot_probes: IntArray,
     time_step: float,
     bending: float,
     pad: RealArray,
@@ -89,6 +90,8 @@ def advance(
         When the step of roughness reaches each wheel, in time steps [-].
     rail_probes, block_probes : numpy.ndarray of int
         Places in ``rail``, and in ``supports`` as one row, whose displacement is recorded.
+    foot_probes : numpy.ndarray of int
+        Places in ``supports`` as one row of p of the feet whose displacement is recorded.
     time_step : float
         dt [s].
     bending : float
@@ -117,7 +120,7 @@ def advance(
         Time steps per row of the record.
     record : numpy.ndarray (rows, columns)
         Filled: force that each support passes into the ground [N]; displacement of the wheels against rail
-        without roughness, of the rail's and of the blocks' probes [m].
+        without roughness, of the rail's, the blocks' and the feet's probes [m].
     """
     per_bay = rail_velocity.size // bays
     per_element = time_step / element_mass
@@ -140,10 +143,18 @@ def advance(
             for place in block_probes:
                 row[column] = supports[place // (QUANTITIES * LANES), place % (QUANTITIES * LANES)]
                 column += 1
+            for probe in range(foot_probes.size):
+                place = foot_probes[probe]
+                row[column + probe] = supports[place // (QUANTITIES * LANES), place % (QUANTITIES * LANES)]
             if two_stage:
                 step_two_stage(supports, over, pushed, row, time_step, block_mass, pad, boot, foot)
             else:
                 step_single_stage(supports, over, pushed, row, time_step, pad, foot)
+            for probe in range(foot_probes.size):
+                place = foot_probes[probe]
+                # p before and after, -y + T u and T u + y, sum up to 2 T u
+                row[column + probe] += supports[place // (QUANTITIES * LANES), place % (QUANTITIES * LANES)]
+                row[column + probe] *= time_step / 4.0
             for bay in range(bays):
                 rail_velocity[bay * per_bay] -= per_element * pushed[bay]
             for wheel in range(wheels.shape[0]):

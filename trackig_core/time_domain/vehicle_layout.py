@@ -55,6 +55,10 @@ class VehicleLayout:
         group, lane = divmod(support % self._grid.bays, LANES)
         return group * QUANTITIES * LANES + lane
 
+    def foot_place(self, support: int) -> int:
+        """Return where p of the foot of a support lies there."""
+        return self.block_place(support) + 8 * LANES
+
     def mirrors(self) -> IntArray:
         """Return the places from which the ghosts take their displacements (4,)."""
         if self._grid.symmetric:
@@ -98,6 +102,7 @@ class Constants(NamedTuple):
     onsets: RealArray
     rail_probes: IntArray
     block_probes: IntArray
+    foot_probes: IntArray
     time_step: float
     bending: float
     pad: RealArray
@@ -174,6 +179,7 @@ def at_rest(
         onsets(track, rough_wheel) / grid.dt,
         np.array([layout.rail_place(element) for element in probes.rail], dtype=np.int64),
         np.array([layout.block_place(support) for support in probes.blocks], dtype=np.int64),
+        np.array([layout.foot_place(support) for support in probes.feet], dtype=np.int64),
         grid.dt,
         grid.dt * rail.bending_stiffness / (rail.mass_per_metre * grid.dx**4),
         pad,

@@ -104,14 +104,7 @@ VEHICLES = named(
         vehicle.name: vehicle
         for vehicle in (
             Vehicle("metro", 750.0, Suspension(1.2e6, 10e3, 750.0, 250e3, 10e3, 3500.0), 2.1, _GENERIC),
-            Vehicle(
-                "regional",
-                906.5,
-                Suspension(1.22e6, 4e3, 653.75, 215e3, 10e3, 4000.0),
-                2.56,
-                "Iwnicki (1998), Manchester Benchmarks, vehicle 1 (coach): wheelset 1813 kg, bogie 2615 kg, "
-                "body 32 t; 1.22 MN/m and 4 kN s/m an axlebox, 0.43 MN/m and 20 kN s/m a bogie side",
-            ),
+            Vehicle("regional", 900.0, Suspension(1.2e6, 4e3, 650.0, 220e3, 10e3, 4000.0), 2.5, _GENERIC),
             Vehicle("high speed", 950.0, Suspension(1.0e6, 10e3, 650.0, 150e3, 12e3, 5000.0), 2.5, _GENERIC),
             Vehicle("freight", 650.0, Suspension(1.5e6, 15e3, 10500.0), 1.8, _GENERIC),
         )

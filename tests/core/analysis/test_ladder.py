@@ -17,7 +17,7 @@ def test_rungs_put_back_one_thing_after_the_other(preset):
     assert names == ["the simplified model", "suspension", "other axles", "ground"]
     assert found.rungs[0].design == design
     assert found.rungs[1].design == design.replace(suspension=tig.VEHICLES["regional"].suspension)
-    assert found.rungs[2].design.axle_positions == (0.0, 2.56)
+    assert found.rungs[2].design.axle_positions == (0.0, tig.VEHICLES["regional"].wheelbase)
     assert found.rungs[3].design.ground == tig.GROUNDS["stiff clay"]
     assert [rung.source for rung in found.rungs] == [
         "the design",

@@ -1,5 +1,7 @@
 """The film: every frame is a low-passed instant of the plain transcription, and no film is large."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -39,6 +41,31 @@ def test_probes_are_the_low_passed_displacements_of_the_plain_transcription(desi
     assert len(found) > 200
     scale = np.abs(expected).max(axis=0)[places]
     np.testing.assert_allclose(found / (scale + 1e-12), expected[:, places] / (scale + 1e-12), atol=1e-9)
+
+
+@pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two stages", "one stage"])
+@pytest.mark.parametrize("axles", [(0.0,), (0.0, 1.4)], ids=["half the ring", "all of it"])
+def test_wheels_and_feet_are_those_of_the_plain_transcription(design, axles):
+    design = design.replace(
+        suspension=tig.VEHICLES["metro"].suspension,
+        axle_positions=axles,
+        speed=25.0,
+        ground=dataclasses.replace(tig.GROUNDS["soft clay"], mass=300.0),
+    )
+    grid = make_grid(design, bays=47, record=0.0625, time_step=1 / 98304)
+    bays, per_bay, wheels = grid.bays, grid.elements_per_bay, len(axles)
+    run = Run(design, grid, probes=Probes(rail=(0, 7), blocks=(0, 3), feet=(0, 1, 3)))
+    samples = run.collect(grid.steps)
+    frames = []
+    run_ring(design, *laws(design), bays, per_bay, grid.dt, grid.steps, frames=frames)
+    expected = smoothed(run, np.array(frames))
+    rail, block = wheels, wheels + bays * per_bay
+    foot = block + bays
+    places = [*range(wheels), rail, rail + 7, block, block + 3, foot, foot + 1, foot + 3]
+    found, expected = samples[: len(expected), grid.stored_bays :], expected[:, places]
+    scale = np.abs(expected).max(axis=0)
+    assert (scale[-3:] > 1e-7).all(), "feet move"
+    np.testing.assert_allclose(found / (scale + 1e-12), expected / (scale + 1e-12), atol=1e-9)
 
 
 @pytest.mark.parametrize("preset", list(tig.PRESETS))
@@ -131,3 +158,11 @@ def test_a_film_under_a_suspension_on_ground_is_the_run_s_own_record():
     frames = slice(0, motion.STRIDE * len(made.time), motion.STRIDE)
     np.testing.assert_allclose(made.rail[:, 0], history.rail_displacement[frames], rtol=1e-9)
     np.testing.assert_allclose(made.block[:, 0], history.block_displacement[frames], rtol=1e-9)
+    # what presses on the ground is what the history says: no foot has a mass here
+    assert made.foot.shape == made.block.shape == (made.time.size, 5)
+    velocity = np.gradient(made.foot, made.time, axis=0)
+    pressed = design.ground.stiffness * made.foot + design.ground.damping * velocity
+    force = history.support_force[frames, :5]
+    within = slice(20, -20)  # the difference quotient of frames is coarse where the step has just come
+    np.testing.assert_allclose(pressed[within], force[within], atol=0.1 * np.abs(force).max())
+    assert tig.film(BLOCK, bays=2).foot is None

@@ -24,7 +24,7 @@ from dashboard.figures.force import (
 )
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.session.pins import current_design
-from dashboard.session.results import DesignResult
+from dashboard.session.results import DesignResult, SolutionSummary
 from dashboard.theme import MOST_PINNED
 from trackig_core.names import LONGEST_NAME
 
@@ -341,6 +341,18 @@ def test_pinned_forces_are_drawn_and_follow_a_zoom(summary):
     assert np.count_nonzero((sent >= 1.0) & (sent <= 1.2)) >= expected - 1
     force.show(hand)
     assert not len(force.pins[0].data["time"])
+
+
+def test_a_pin_without_a_run_says_so_wherever_it_is_listed(gain, summary):
+    hand, slab = current(summary("booted-block-low-mass")), summary("slab-track")
+    exact = SolutionSummary.of(tig.solve(slab.design, "exact"), 0.1)
+    pins, force = (pinned(exact, "early"), pinned(slab, "late")), ForceFigure()
+    for figure in (gain, force):
+        figure.show(hand, pins)
+    assert listed(gain)[1:] == ["early · exact curve", "late"]
+    assert [words.split(" (")[0] for words in listed(force)[2:]] == ["late", "early · exact curve, no force"]
+    np.testing.assert_allclose(force.pins[0].data["total"][-1], slab.total_force[-1], rtol=1e-5)
+    assert not len(force.pins[1].data["time"])
 
 
 def test_the_current_design_sets_the_scale_of_force_and_the_legend_says_what_leaves_it(summary):

@@ -105,6 +105,23 @@ def test_a_film_of_several_wheels_is_sent_whole_and_drawn_unmirrored():
     np.testing.assert_allclose(view.wheel.data["x"], motion.wheel_position)
 
 
+@pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two stages", "one stage"])
+@pytest.mark.parametrize("axles", [(0.0,), (0.0, 2.1)], ids=["one wheel", "both of a bogie"])
+def test_a_film_shows_feet_on_ground_that_yields(design, axles):
+    player, ground = FilmPlayer(), tig.GROUNDS["soft clay"]
+    motion = tig.film(design.replace(axle_positions=axles, speed=20.0, ground=ground))
+    player.show(motion)
+    view, at = player.view, np.argmin(np.abs(motion.time))
+    np.testing.assert_allclose(player.film.data["foot_3"], 1e6 * motion.foot[:, 3], rtol=1e-5, atol=1e-4)
+    scale, ground = view.facts.data["scale"][0], view.supports.data["ground"]
+    feet = (figures.FOOT_AT - ground[-motion.foot.shape[1] :]) / scale
+    np.testing.assert_allclose(feet, 1e6 * motion.foot[at], atol=1e-9)
+    assert view.floor.location == figures.FLOOR_AT
+    player.show(tig.film(design))
+    assert "foot_0" not in player.film.data
+    np.testing.assert_array_equal(view.supports.data["ground"], figures.FOOT_AT)
+
+
 def test_nothing_that_the_browser_moves_comes_back():
     for player in (FilmPlayer(), ShapePlayer()):
         moved = [player.slider, player.play, player.view.rail, player.view.supports, player.view.wheel]

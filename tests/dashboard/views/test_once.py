@@ -43,7 +43,7 @@ class Everything:
         self.fake_picture = fake_picture
         self.inputs, self.definition, self.pins = DesignInputs(), GainDefinition(), Pins()
         self.outcome = Outcome(summary=fake_picture(OPENING))
-        pinned = PinnedSummaries(self.pins, store)
+        pinned = PinnedSummaries(self.pins, store, store)
         self.assessment = Assessment(self.inputs, self.outcome, self.definition, self.pins, pinned)
         self.assessment.specification = tig.Specification([(63, -3.0)])
         self.assessment.source = tig.SourceSpectrum([(63, 60.0)])
