@@ -161,7 +161,8 @@ RAIL_FIELDS = {
         ),
         Field(
             *("bending_stiffness", "Rail EI", "MN m²", 1e6, 0.5, 20, 0.01, "Track"),
-            "Young's modulus times second moment of area; for steel, 0.0021 MN m² for each cm⁴.",
+            "Young's modulus times second moment of area; a second moment of area alone (3038 cm4) is taken as "
+            "steel's, E = 210 GPa.",
         ),
     )
 }

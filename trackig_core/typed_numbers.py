@@ -46,6 +46,9 @@ _AMBIGUOUS = re.compile(r"[1-9][0-9]{0,2},[0-9]{3}")
 
 _PREFIXES = {"k": 3, "K": 3, "M": 6, "G": 9}
 
+_STEEL_MODULUS = 210 * 10**9
+"""Young's modulus of rail steel [N/m2]: a second moment of area stands for a rail's bending stiffness."""
+
 _FORCES = {"N": 0, "kN": 3, "MN": 6, "GN": 9}
 _LENGTHS = {"m": 0, "cm": -2, "mm": -3}
 
@@ -106,6 +109,8 @@ def _units() -> dict[str, Unit]:
             add("stiffness per area", **{f"{force}/{length}3": _power(much - 3 * long)})
             add("bending stiffness", **{f"{force} {length}2": _power(much + 2 * long)})
             add("damping", **{f"{force} s/{length}": stiffness})
+    for length, long in _LENGTHS.items():
+        add("bending stiffness", **{f"{length}4": _STEEL_MODULUS * _power(4 * long)})
     units: dict[str, Unit] = {"": _PURE, "-": _PURE}
     for unit in found:
         units[_folded(unit.name)] = unit

@@ -37,7 +37,7 @@ LAST_ROWS = {"Track": ("rail",)}
 KINDS = {"Rail pad": ["pad"], "Block and boot": ["block", "boot"], "Track": ["rail"]}
 """Kinds of component of the catalogue that a group may be set from."""
 
-OTHERS = {"rail": [["of its own mass and EI …", OWN_RAIL]]}
+OTHERS = {"rail": [["of its own mass and EI or I …", OWN_RAIL]]}
 """What may be chosen besides an input's own options, words first."""
 
 

@@ -4,7 +4,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from trackig_core.track.rails import STEEL_MODULUS
 from trackig_core.typed_numbers import NumberError, find_unit, read_number, read_quantity
+
+
+@pytest.mark.parametrize("text", ["3055 cm4", "3055cm⁴", "3055 cm^4", "30.55e6 mm⁴"])
+def test_a_second_moment_of_area_is_that_of_a_rail_of_steel(text):
+    assert read_number(text, "MN m²") == pytest.approx(STEEL_MODULUS * 3055e-8 / 1e6, rel=1e-12)
+    assert read_number(text, "N m2") == pytest.approx(STEEL_MODULUS * 3055e-8, rel=1e-12)
 
 
 @pytest.mark.parametrize(
