@@ -161,7 +161,7 @@ RAIL_FIELDS = {
         ),
         Field(
             *("bending_stiffness", "Rail EI", "MN m²", 1e6, 0.5, 20, 0.01, "Track"),
-            "Young's modulus times second moment of area; a second moment of area alone (3038 cm4) is taken as "
+            "Young's modulus times second moment of area; a second moment alone (3038 cm4) is taken as "
             "steel's, E = 210 GPa.",
         ),
     )
