@@ -11,10 +11,14 @@ import numpy as np
 
 from trackig_core.arrays import ComplexArray, IntArray, RealArray
 from trackig_core.compiling import njit
-from trackig_core.frequency_domain.wave_kernels import bay_waves
-
-BLOCK_MASS, BENDING, ELEMENT_MASS, WHEEL_MASS, CONTACT = 14, 15, 16, 17, 18
-"""Columns of a track, see :data:`trackig_core.frequency_domain.batch_kernels.COLUMNS`."""
+from trackig_core.frequency_domain.wave_kernels import (
+    BENDING,
+    BLOCK_MASS,
+    CONTACT,
+    ELEMENT_MASS,
+    WHEEL_MASS,
+    bay_waves,
+)
 
 PRIMARY, BOGIE_MASS, SECONDARY, BODY_MASS, FOOT, FOOT_MASS = 0, 2, 3, 5, 6, 8
 SURROUNDINGS = 9

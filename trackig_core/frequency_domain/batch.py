@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from trackig_core.arrays import AnyArray, BoolArray, RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_EDGES, BAND_LABELS, LINE_FRACTION, decibels
 from trackig_core.frequency_domain import batch_kernels as kernels
+from trackig_core.frequency_domain import wave_kernels
 from trackig_core.frequency_domain.kernel_rows import law_row
 from trackig_core.frequency_domain.natural_frequencies import natural_frequencies
 from trackig_core.frequency_domain.refinement import banded_spectrum, stiff_spectrum
@@ -555,7 +556,7 @@ def _solved_simplified(columns: Columns) -> dict[str, AnyArray]:
         row = int(np.argmin(sound))
         raise _loss_error(columns, row, "more loss: rounding drowns the exact spectrum of this design")
     # E = (m_w w^2 step)^2 / w^2 of the rigid track
-    rigid = ((2 * np.pi * tracks[:, kernels.WHEEL_MASS]) ** 2)[:, None]
+    rigid = ((2 * np.pi * tracks[:, wave_kernels.WHEEL_MASS]) ** 2)[:, None]
     return {
         "loaded_track": found[:, 0],
         "coupled_block": found[:, 1],
@@ -575,8 +576,8 @@ def _loss_error(columns: Columns, row: int, allowed: str) -> DesignError:
 def _tracks(columns: Columns) -> RealArray:
     """Return a chunk of designs as the kernels take them (n, 19)."""
     two_stage = np.array([mass is not None for mass in columns["block_mass"]])
-    tracks = np.zeros((two_stage.size, kernels.COLUMNS))
-    pads, boots = (tracks[:, first : first + 7] for first in (kernels.PAD, kernels.BOOT))
+    tracks = np.zeros((two_stage.size, wave_kernels.COLUMNS))
+    pads, boots = (tracks[:, first : first + 7] for first in (wave_kernels.PAD, wave_kernels.BOOT))
     for laws, part in ((pads, "pad"), (boots, "boot")):
         stiffness, loss_factor = columns[f"{part}_stiffness"], columns[f"{part}_loss_factor"]
         _fill_laws(laws, stiffness, loss_factor, columns["stiffness_frequency"].astype(float))
@@ -588,11 +589,11 @@ def _tracks(columns: Columns) -> RealArray:
     dx = columns["fastener_spacing"].astype(float) / ELEMENTS_PER_BAY
     rails = columns["rail"]
     masses = columns["block_mass"]
-    tracks[:, kernels.BLOCK_MASS] = np.where(two_stage, masses, 0.0).astype(float)
-    tracks[:, kernels.BENDING] = np.array([rail.bending_stiffness for rail in rails]) / dx**3
-    tracks[:, kernels.ELEMENT_MASS] = np.array([rail.mass_per_metre for rail in rails]) * dx
-    tracks[:, kernels.WHEEL_MASS] = columns["wheel_mass"]
-    tracks[:, kernels.CONTACT] = columns["contact_stiffness"]
+    tracks[:, wave_kernels.BLOCK_MASS] = np.where(two_stage, masses, 0.0).astype(float)
+    tracks[:, wave_kernels.BENDING] = np.array([rail.bending_stiffness for rail in rails]) / dx**3
+    tracks[:, wave_kernels.ELEMENT_MASS] = np.array([rail.mass_per_metre for rail in rails]) * dx
+    tracks[:, wave_kernels.WHEEL_MASS] = columns["wheel_mass"]
+    tracks[:, wave_kernels.CONTACT] = columns["contact_stiffness"]
     return tracks
 
 

@@ -10,8 +10,8 @@ Arrays and floats only; no objects, no I/O, and no globals but this file's own c
 notices neither a changed global nor an edit in another file. The loop over frequencies is written in real
 numbers and without branches, so that it is compiled to vector instructions.
 
-A track is a row of :data:`COLUMNS` numbers, a pad's or boot's law seven of them: instantaneous stiffness,
-three strengths [N/m], three times [s].
+A track is a row of numbers, see :data:`trackig_core.frequency_domain.wave_kernels.COLUMNS`, a pad's or boot's
+law seven of them: instantaneous stiffness, three strengths [N/m], three times [s].
 """
 
 import math
@@ -21,12 +21,17 @@ import numpy as np
 from trackig_core.arrays import BoolArray, IntArray, RealArray
 from trackig_core.compiling import njit
 from trackig_core.frequency_domain.axle_kernels import axle_energy
-from trackig_core.frequency_domain.wave_kernels import ELEMENTS_PER_BAY, bay_waves
-
-PAD, BOOT, BLOCK_MASS, BENDING, ELEMENT_MASS, WHEEL_MASS, CONTACT = 0, 7, 14, 15, 16, 17, 18
-COLUMNS = 19
-"""Columns of a track: pad law, boot law, block mass [kg] (0: single-stage), EI/dx^3 [N/m], m' dx [kg], wheel
-mass [kg], contact stiffness [N/m]."""
+from trackig_core.frequency_domain.wave_kernels import (
+    BENDING,
+    BLOCK_MASS,
+    BOOT,
+    CONTACT,
+    ELEMENT_MASS,
+    ELEMENTS_PER_BAY,
+    PAD,
+    WHEEL_MASS,
+    bay_waves,
+)
 
 LOADED_TRACK, COUPLED_BLOCK, WHEEL_ON_RIGID_BLOCKS, BLOCK_ON_BOOT, CUT_ON = 0, 1, 2, 3, 4
 FREQUENCIES = 6

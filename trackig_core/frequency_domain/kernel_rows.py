@@ -64,7 +64,7 @@ def track_row(design: TrackDesign, pad: Relaxation, boot: Relaxation | None) -> 
     Returns
     -------
     numpy.ndarray (19,)
-        See :data:`trackig_core.frequency_domain.batch_kernels.COLUMNS`.
+        See :data:`trackig_core.frequency_domain.wave_kernels.COLUMNS`.
     """
     dx = design.fastener_spacing / ELEMENTS_PER_BAY
     return np.array(

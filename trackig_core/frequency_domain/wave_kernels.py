@@ -8,6 +8,11 @@ import math
 
 from trackig_core.compiling import njit
 
+PAD, BOOT, BLOCK_MASS, BENDING, ELEMENT_MASS, WHEEL_MASS, CONTACT = 0, 7, 14, 15, 16, 17, 18
+COLUMNS = 19
+"""Columns of a track: pad law, boot law, block mass [kg] (0: single-stage), EI/dx^3 [N/m], m' dx [kg], wheel
+mass [kg], contact stiffness [N/m]."""
+
 ELEMENTS_PER_BAY = 3
 """Rail elements per bay [-]; the closed form below is written out for three."""
 
