@@ -77,8 +77,8 @@ def on_next_tick(document, change):
 def in_turns(steps, on_error):
     """Do work of the current session step by step, each step on a turn of its own once the page has loaded.
 
-    Between them the server does what other sessions wait for (see :mod:`dashboard.compute.pacing`). Without a session, as in tests, all is done at
-    once.
+    Between them the server does what other sessions wait for, as :mod:`dashboard.compute.pacing` has it.
+    Without a session, as in tests, all is done at once.
 
     Parameters
     ----------

@@ -1,8 +1,9 @@
 """Paces what pages are made of, so that an open page is hardly held up by those that open.
 
-The server's event loop does one thing at a time, and a message of a page takes a dozen of its turns: if a page
-that opens took every other turn for one of its parts, each message would wait for a dozen parts. So parts
-begin one at a time for all pages of the process, and whoever works at an open page comes first, for a while.
+The server's event loop does one thing at a time, and a message of a page takes a dozen of its turns: if a
+page that opens took every other turn for one of its parts, each message would wait for a dozen parts. So
+parts begin one at a time for all pages of the process, and whoever works at an open page comes first, for a
+while.
 """
 
 import asyncio

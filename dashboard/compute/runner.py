@@ -3,9 +3,9 @@
 While inputs move, each newest state is solved at live fidelity, in some milliseconds, and older ones that
 still wait are dropped: pictures follow the hand. Where little is lost and a live run takes longer, the exact
 curve is drawn at once, and the force when the run is there. Where many sessions share the server, drawing is
-what takes long, and the exact curve is the one picture of a move. When inputs rest, the paper's run of the same
-design takes the picture's place. A paper run under way gives way to newer inputs at once. Solutions come from
-stores that all sessions share.
+what takes long, and the exact curve is the one picture of a move. When inputs rest, the paper's run of the
+same design takes the picture's place. A paper run under way gives way to newer inputs at once. Solutions come
+from stores that all sessions share.
 
 The last good picture stays until a better one is there, and no picture follows one of newer
 inputs.
@@ -34,7 +34,7 @@ SOON = 0.06
 """Seconds for which a live run is waited for before the exact curve is drawn."""
 
 BUSY = 0.1
-"""Seconds that drawing a picture takes on a server that is busy with other sessions; alone it takes a third."""
+"""Seconds that drawing takes on a server that is busy with other sessions; alone it takes a third of that."""
 
 PATIENCE = 0.5
 """Seconds of work after which a live run, under light damping, is given up for the paper's."""

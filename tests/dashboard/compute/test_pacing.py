@@ -40,7 +40,7 @@ def test_a_message_waits_for_few_parts_of_pages_that_open():
     assert len(done) == 50
 
 
-def test_parts_do_not_wait_forever_for_those_who_work(monkeypatch):
+def test_parts_do_not_wait_forever_for_those_who_work():
     async def work_on():
         while not done:
             pace.hear(open_page)

@@ -582,7 +582,7 @@ def test_waiting_for_a_worker_does_not_count_as_long(make_store, fake_picture, m
     assert [each for each in shown if each != (300, AT_ONCE)] == [(300, MOVING), (300, AT_REST)]
 
 
-def test_where_others_wait_for_runs_the_exact_curve_is_the_one_picture_of_a_move(make_store, live_gate, monkeypatch):
+def test_where_others_wait_for_runs_a_move_has_one_picture(make_store, live_gate, monkeypatch):
     monkeypatch.setattr(runner_module, "SOON", WAIT)
     live_store = make_store(live_gate.solve, workers=2, spare=1)
     session = Session(make_store(live_gate.solve), live_store)
