@@ -92,15 +92,22 @@ class SocketHandler(WSHandler):
         return super().open()
 
     async def _async_open(self, token):
-        """Begin a session when those who work and pages that have begun let it."""
+        """Begin a session when those who work and pages that have begun let it.
+
+        Whoever has left meanwhile gets none: nothing would end it.
+        """
         await PACE.turn()
-        await super()._async_open(token)
+        if self._is_open():
+            await super()._async_open(token)
+
+    def _is_open(self):
+        return self.ws_connection is not None and not self.ws_connection.is_closing()
 
     async def on_message(self, fragment):
         """Take what a page sends, but nothing after what it was cut off for."""
         if self.connection is not None:
             PACE.hear(self.connection.session.document)
-        if self.ws_connection is not None and not self.ws_connection.is_closing():
+        if self._is_open():
             await super().on_message(fragment)
 
     async def _handle(self, message):
