@@ -25,7 +25,7 @@ from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.solver import FIDELITIES
 from trackig_core.study.catalogue import KINDS
-from trackig_core.track.fields import SLIDER_RANGES
+from trackig_core.track.fields import SEARCHED_RANGES
 
 FAILED, STOPPED = 1, 130
 """Exit codes: nothing complies; the user pressed Ctrl+C."""
@@ -598,9 +598,9 @@ def _free(text):
     """Return a field, and its range or that of its slider."""
     if "=" in text:
         return _range(text)
-    if text not in SLIDER_RANGES:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r}: fields are {', '.join(SLIDER_RANGES)}")
-    return text, list(SLIDER_RANGES[text])
+    if text not in SEARCHED_RANGES:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r}: fields are {', '.join(SEARCHED_RANGES)}")
+    return text, list(SEARCHED_RANGES[text])
 
 
 def _points(text):

@@ -23,7 +23,7 @@ from bokeh.plotting.contour import contour_data
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.axes import (
     LEVEL_ROOM,
     LEVEL_STEP,
@@ -295,7 +295,7 @@ class MapFigure:
         limits : dict of str to float or None
             Limit by name of a figure [SI], along which designs just comply.
         """
-        x_field, y_field = FIELDS[found.x_field], FIELDS[found.y_field]
+        x_field, y_field = ASKED_FIELDS[found.x_field], ASKED_FIELDS[found.y_field]
         x, y = found.x / x_field.factor, found.y / y_field.factor
         values = found.figures[figure_name] * SCALES.get(figure_name, 1.0)
         plot = self.model = figure(
@@ -347,13 +347,13 @@ def _mark(plot, found, designs):
     """Mark where designs lie; return what the legend says of them."""
     entries = []
     for each in designs:
-        place = [getattr(each.design, name) for name in (found.x_field, found.y_field)]
+        place = [each.design.value(name) for name in (found.x_field, found.y_field)]
         if not all(isinstance(value, float) for value in place):
             continue  # a measured curve or a missing block has no place on the map
         marker = "circle" if each.key is None else "diamond"
         plot.scatter(
-            x=[place[0] / FIELDS[found.x_field].factor],
-            y=[place[1] / FIELDS[found.y_field].factor],
+            x=[place[0] / ASKED_FIELDS[found.x_field].factor],
+            y=[place[1] / ASKED_FIELDS[found.y_field].factor],
             size=14,
             marker=marker,
             fill_color=each.colour,
@@ -573,7 +573,7 @@ def _places_by_name(names):
 
 
 def _places(found, name, rows, low, high):
-    values = found.many.columns[name][rows].astype(float)
-    if FIELDS[name].logarithmic:
+    values = found.many.column(name)[rows].astype(float)
+    if ASKED_FIELDS[name].logarithmic:
         return np.log(values / low) / np.log(high / low)
     return (values - low) / (high - low)
