@@ -111,7 +111,11 @@ def _add_range(commands, shell):
         help="Print where the design complies along each field, all others held.",
     )
     command.add_argument(
-        "--field", action="append", dest="fields", metavar="FIELD", help="this field; may be given again"
+        "--field",
+        action="append",
+        dest="fields",
+        metavar="FIELD",
+        help="this field, such as boot_stiffness or ground.stiffness; may be given again",
     )
     _add_ranges(command)
     _add_scheduler(command)
@@ -182,7 +186,11 @@ def _add_map(commands, shell):
             points=options.points,
         ),
         help="Compute figures over two fields; exit with 1 if no design of the map complies.",
-        epilog="The table goes to --csv; printed is what it says in one sentence.",
+        epilog=(
+            "The table goes to --csv; printed is what it says in one sentence. Fields are numbers of the design, "
+            "such as boot_stiffness, and by path those of what stands on and under it: ground.stiffness, "
+            "suspension.primary_damping."
+        ),
     )
     command.add_argument("x_field", metavar="X_FIELD")
     command.add_argument("y_field", metavar="Y_FIELD")
