@@ -187,9 +187,9 @@ def _add_map(commands, shell):
         ),
         help="Compute figures over two fields; exit with 1 if no design of the map complies.",
         epilog=(
-            "The table goes to --csv; printed is what it says in one sentence. Fields are numbers of the design, "
-            "such as boot_stiffness, and by path those of what stands on and under it: ground.stiffness, "
-            "suspension.primary_damping."
+            "The table goes to --csv; printed is what it says in one sentence. Fields are numbers of the "
+            "design, such as boot_stiffness, and by path those of what stands on and under it: "
+            "ground.stiffness, suspension.primary_damping."
         ),
     )
     command.add_argument("x_field", metavar="X_FIELD")
