@@ -150,6 +150,11 @@ STATUS_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
 div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
 [role="status"] { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+[role="status"]:focus {
+    position: absolute; z-index: 3; width: 100%; padding: 4px 0; white-space: normal; line-height: 1.4;
+    background: var(--panel-background-color); outline: none;
+    box-shadow: 0 0 0 6px var(--panel-background-color), 0 0 0 8px var(--panel-primary-color);
+}
 .problem { color: var(--danger-bg-color); font-weight: 500; }
 """
 OPENING_CSS = """

@@ -11,7 +11,7 @@ from dashboard.session.bands import gain_in
 from dashboard.session.heading import Heading
 from dashboard.session.results import DesignResult, SolutionSummary
 from dashboard.theme import MOST_PINNED
-from tests.browser.conftest import wait_until_at_rest
+from tests.browser.conftest import SOLVED, wait_until_at_rest
 from tests.browser.test_workshop import open_file, open_tab, pages
 from trackig_core.names import LONGEST_NAME, LONGEST_TITLE
 
@@ -205,3 +205,22 @@ def test_a_data_sheet_with_everything_on_prints_on_one_page(chromium, bands):
     too_wide = "cells => cells.filter(each => each.scrollWidth > each.clientWidth + 1).length"
     assert page.locator("th, td").evaluate_all(too_wide) == 0
     page.close()
+
+
+def test_a_status_that_is_cut_unfolds_with_the_focus(small):
+    open_tab(small, "Explore")
+    status = small.get_by_role("status").filter(has_text=SOLVED).first
+    expect(status).to_be_visible()
+    status.evaluate("line => { line.textContent = 'Long words. '.repeat(60) }")
+    line = small.get_by_text("Long words.").first
+    assert line.evaluate("line => line.scrollWidth > line.clientWidth")
+    line.focus()
+    assert line.evaluate("line => line.scrollWidth <= line.clientWidth && line.clientHeight > 40")
+    # its last line covers the tabs, and nothing covers it
+    on_top = """line => {
+        const {left, bottom} = line.getBoundingClientRect()
+        return line.getRootNode().elementFromPoint(left + 2, bottom - 6) === line
+    }"""
+    assert line.evaluate(on_top)
+    line.blur()
+    assert line.evaluate("line => line.clientHeight <= 32")
