@@ -131,6 +131,18 @@ LEFT_ALIGNED = {
 }
 """The same for words."""
 
+WHOLE_NAME = {
+    **LEFT_ALIGNED,
+    "& input": {
+        **LEFT_ALIGNED["& input"],
+        "fieldSizing": "content",
+        "width": "auto",
+        "flexGrow": 1,
+        "textOverflow": "ellipsis",
+    },
+}
+"""A box that grows with its words; where the browser cannot have it grow, dots say that it holds more."""
+
 SIDEBAR_WIDTH = 330
 STATUS_HEIGHT = 32
 DESIGN_BAR_HEIGHT = 80

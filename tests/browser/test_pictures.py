@@ -69,6 +69,24 @@ def test_eight_long_names_leave_two_thirds_of_a_figure_to_the_data(small, tab, f
     assert right <= 1024
 
 
+def test_long_names_of_pins_are_in_sight_and_short_ones_keep_to_one_line(small):
+    open_tab(small, "Compare")
+    boxes = small.get_by_role("textbox", name="Name of the design", exact=True)
+    expect(boxes).to_have_count(MOST_PINNED)
+    wait_until_at_rest(small)
+    widest = "boxes => Math.max(...boxes.map(each => each.scrollWidth - each.clientWidth))"
+    assert boxes.evaluate_all(widest) <= 0
+    removes = small.get_by_role("button", name="Remove")
+    box, remove = boxes.first.bounding_box(), removes.first.bounding_box()
+    assert remove["y"] >= box["y"] + box["height"]
+    assert remove["x"] + remove["width"] <= 1024
+    name = boxes.first.input_value()
+    boxes.first.fill("Short")
+    box, remove = boxes.first.bounding_box(), removes.first.bounding_box()
+    assert remove["y"] < box["y"] + box["height"]
+    boxes.first.fill(name)
+
+
 def test_all_tabs_are_in_sight_and_none_scrolls_sideways(small):
     for tab in small.get_by_role("tab").all():
         box = tab.bounding_box()
