@@ -10,7 +10,7 @@ from dashboard.report.data_sheet import data_sheet
 from dashboard.session.bands import gain_in
 from dashboard.session.heading import Heading
 from dashboard.session.results import DesignResult, SolutionSummary
-from dashboard.theme import MOST_PINNED
+from dashboard.theme import AXIS_SIZES, MOST_PINNED, TICK_SIZES
 from tests.browser.conftest import SOLVED, wait_until_at_rest
 from tests.browser.test_workshop import open_file, open_tab, pages
 from trackig_core.names import LONGEST_NAME, LONGEST_TITLE
@@ -113,6 +113,27 @@ def test_arrows_that_a_narrower_window_needed_hide_no_tab_of_a_wider_one(small):
     expect(arrows.first).to_be_hidden()
     wait_until_at_rest(small)
     assert tabs.first.bounding_box()["x"] >= small.locator(".MuiTabs-scroller").first.bounding_box()["x"]
+
+
+TEXT_SIZES = """name => {
+    const axes = Bokeh.documents[0].get_model_by_name(name).below
+    return axes.map(axis => [axis.major_label_text_font_size, axis.axis_label_text_font_size]).flat()
+}"""
+
+
+def test_text_of_axes_follows_a_window_that_is_resized(small):
+    open_tab(small, "Explore")
+    for width, place in ((1024, 0), (1440, 1), (1024, 0)):
+        small.set_viewport_size({"width": width, "height": 768})
+        small.wait_for_function(
+            f"([name, sizes]) => String(({TEXT_SIZES})(name)) === sizes",
+            arg=["insertion_gain_figure", f"{TICK_SIZES[place]},{AXIS_SIZES[place]}"],
+        )
+    small.get_by_label("Toggle theme").click()
+    wait_until_at_rest(small)
+    assert small.evaluate(TEXT_SIZES, "insertion_gain_figure") == [TICK_SIZES[0], AXIS_SIZES[0]]
+    small.get_by_label("Toggle theme").click()
+    wait_until_at_rest(small)
 
 
 def test_formulas_are_set_and_none_has_a_scroll_bar(small):
