@@ -356,9 +356,17 @@ LEVELS_CSS = f"""
 {_TABLE_CSS}
 table {{ font-size: 20px; }}
 thead th {{ font-size: 15px; }}
+thead th:not(:first-child) {{ min-width: 84px; max-width: 150px; overflow-wrap: anywhere; }}
+tbody th {{ position: relative; max-width: 460px; padding-left: 46px; overflow-wrap: anywhere; }}
+tbody th svg {{ position: absolute; left: 2px; top: calc(1px + 0.6lh - 6px); }}
 th:first-child {{ text-align: left; }}
 p {{ margin: 0; font-size: 16px; }}
+@media (max-width: {NARROW_WINDOW}px) {{
+    table {{ font-size: 17px; }}
+    thead th {{ font-size: 14px; }}
+}}
 """
+"""Names stand beside the pieces of their lines, however many lines of text they take."""
 
 VERDICT_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}

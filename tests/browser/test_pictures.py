@@ -25,7 +25,8 @@ STUDY = tig.Study(
         tig.PinnedDesign(f"{LONG}{place}", design, place)
         for place, design in enumerate((*tig.PRESETS.values(), *tig.PRESETS.values()))
     ],
-    tig.Specification([(31.5, 3.0), (63, 0.0), (125, -12.0)]),
+    tig.Specification([(31.5, 3.0), (63, 0.0), (125, -12.0)], rail_deflection_limit=1.5e-3),
+    source=tig.SourceSpectrum([(31.5, 60.0), (63, 70.0)]),
 )
 
 BOXES = """name => {
@@ -85,6 +86,25 @@ def test_long_names_of_pins_are_in_sight_and_short_ones_keep_to_one_line(small):
     box, remove = boxes.first.bounding_box(), removes.first.bounding_box()
     assert remove["y"] < box["y"] + box["height"]
     boxes.first.fill(name)
+
+
+@pytest.mark.parametrize(
+    ("tab", "heading"), [("Received level", "Level, dB(A)"), ("Specification", "Deflection")]
+)
+def test_figures_of_eight_long_names_fit_into_the_window(small, tab, heading):
+    open_tab(small, tab)
+    table = small.get_by_role("table").filter(has=small.get_by_role("columnheader", name=heading, exact=True))
+    expect(table.get_by_role("row", name=LONG.strip())).to_have_count(MOST_PINNED)
+    if tab == "Received level":
+        small.get_by_role("combobox", name="Difference from").select_option(label=f"{LONG}0")
+        expect(table.get_by_role("columnheader", name=f"re {LONG}0, dB(A)")).to_be_visible()
+    wait_until_at_rest(small)
+    assert table.evaluate("each => each.getBoundingClientRect().right") <= 1024
+    row = table.get_by_role("rowheader").last
+    row_box, name, swatch = (each.bounding_box() for each in (row, row.locator(".name"), row.locator("svg")))
+    assert row_box["width"] > 200
+    assert swatch["x"] + swatch["width"] <= name["x"]
+    assert row_box["y"] <= swatch["y"] < row_box["y"] + 24
 
 
 def test_all_tabs_are_in_sight_and_none_scrolls_sideways(small):
