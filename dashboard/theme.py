@@ -177,7 +177,8 @@ OPENING_CSS = """
 """What opens at once says nothing, so that nothing flickers."""
 
 SELECT_CSS = """
-select.bk-input { font-size: 15px; color: var(--panel-on-background-color); }
+select.bk-input { font-size: 15px; color: var(--panel-on-background-color); text-overflow: ellipsis; }
+select:not([multiple]).bk-input.bk-input { padding-right: 28px; }
 select:not([multiple]).bk-input.bk-input {
     background-image: linear-gradient(45deg, transparent 50%, currentColor 50%),
         linear-gradient(135deg, currentColor 50%, transparent 50%);
@@ -371,13 +372,13 @@ p {{ margin: 0; font-size: 16px; }}
 VERDICT_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
 p {{ margin: 0; font-size: 16px; }}
-ul {{ display: grid; grid-template-columns: max-content minmax(0, auto) max-content; }}
+ul {{ display: grid; grid-template-columns: max-content minmax(min(10em, 30%), auto) auto; }}
 ul {{ gap: 4px 12px; justify-content: start; list-style: none; margin: 0; padding: 0; }}
 li {{ display: contents; font-size: 22px; line-height: 1.3; }}
 @media (max-width: {NARROW_WINDOW}px) {{ li {{ font-size: 17px; }} }}
 li svg {{ align-self: center; }}
 .name {{ overflow-wrap: anywhere; }}
-span:last-child {{ white-space: nowrap; }}
+.part {{ white-space: nowrap; }}
 .complies {{ color: {COMPLIES_TEXT}; font-weight: 700; }}
 .fails {{ color: {FAILS_TEXT}; font-weight: 700; }}
 """
