@@ -24,12 +24,13 @@ from dashboard.session.bands import WIDE, bands_text, gain_in
 from dashboard.session.heading import Heading
 from dashboard.session.pins import base_design, current_design, shown_designs
 from dashboard.session.results import DesignResult, SolutionSummary
+from dashboard.session.special import curve_text
 from trackig_core.bands import BANDS
 from trackig_core.levels import band_tables
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, reference_for
 from trackig_core.solver import FIDELITIES
 from trackig_core.study import studies
-from trackig_core.track.design import RANGES
+from trackig_core.track.design import RANGES, measured_curves
 from trackig_core.typed_numbers import NumberError, read_number
 
 FAILED, AT_FAULT, STOPPED, CUT_OFF = 1, 2, 130, 141
@@ -496,6 +497,10 @@ def _solution_text(solution, gain, notes, statics):
     if natural.coupled_block is not None:
         lines.append(f"coupled block   {formats.frequency_text(natural.coupled_block)}")
     lines.append(_statics_text(statics))
+    lines += [
+        f"{name.replace('_', ' ')} {curve_text(curve)}"
+        for name, curve in measured_curves(solution.design).items()
+    ]
     lines += [f"note: {note}" for note in notes]
     return "\n".join(lines) + "\n"
 

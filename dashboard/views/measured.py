@@ -18,6 +18,7 @@ from dashboard.compute.document import NextTick
 from dashboard.fields import NEWTON_PER_METRE
 from dashboard.figures.measured import MeasuredFigure
 from dashboard.session.measuring import curve_of, extrapolated_words, with_curve
+from dashboard.session.special import curve_text
 from dashboard.views.components import bokeh_pane, caption, panel
 from trackig_core.table_text import MOST_BYTES
 from trackig_core.track.measured_curves import MeasurementError
@@ -217,7 +218,7 @@ def _sentence(words):
 
 
 def curve_words(curve, fit):
-    """Return what is to be said of a curve and its law, as sentences: fit error, extrapolated bands."""
+    """Return what is to be said of a curve and its law: what was measured, fit error, extrapolated bands."""
     at_points = fit.error_at_points
     said = [
         "No point lies from 5 to 500 Hz, where the law is fitted."
@@ -225,7 +226,7 @@ def curve_words(curve, fit):
         else f"Fit error: {at_points:.1%} at most at the points from 5 to 500 Hz, "
         f"{fit.error_between:.1%} against straight lines between them."
     ]
-    return [*said, *filter(None, [extrapolated_words(curve)])]
+    return [_sentence(curve_text(curve)), *said, *filter(None, [extrapolated_words(curve)])]
 
 
 def points_html(curve, fit):

@@ -73,6 +73,19 @@ def test_a_study_is_solved_as_it_is_looked_at(capsys, save):
     assert "reference line, summation coherent" in capsys.readouterr().out
 
 
+def test_what_was_measured_is_named_with_its_preload(capsys, save):
+    curve = tig.StiffnessCurve([(1, 310.4e6, 0.151), (10, 605.7e6, 0.151), (30, 671e6, 0.151)], preload=30e3)
+    path = save(design=BLOCK.replace(pad_stiffness=curve, pad_loss_factor=None))
+    assert main(["solve", path, "--fidelity", "exact", "--json", str(Path(path).with_name("out.json"))]) == 0
+    text = capsys.readouterr().out
+    assert "pad stiffness measured at 3 frequencies, 1 to 30 Hz, preload 30 kN\n" in text
+    found = json.loads(Path(path).with_name("out.json").read_text(encoding="utf-8"))
+    assert found["design"]["pad_stiffness"] == {
+        "points": [list(row) for row in curve.points],
+        "preload": 30e3,
+    }
+
+
 def test_fields_can_be_changed_and_cleared(capsys):
     changes = ["block_mass=none", "boot_stiffness=none", "boot_loss_factor=none", "rail=54E1"]
     words = [word for change in changes for word in ("--set", change)]
