@@ -244,13 +244,15 @@ class TimeStepFigure:
 
     def show(self, theory, run_step):
         """Draw the errors, and mark the time step of the run [s]."""
-        steps = 1e6 * theory.time_steps
+        steps, first, second = 1e6 * theory.time_steps, theory.first_order_errors, theory.second_order_errors
+        # an order that is unstable at the longest step has its slope pass where it last holds
+        held = np.flatnonzero(np.isfinite(first))[-1:]
         self.errors.data = {
             "step": steps,
-            "first": theory.first_order_errors,
-            "second": theory.second_order_errors,
-            "one": SLOPE_APART * theory.first_order_errors[-1] * steps / steps[-1],
-            "two": SLOPE_APART * theory.second_order_errors[-1] * (steps / steps[-1]) ** 2,
+            "first": first,
+            "second": second,
+            "one": SLOPE_APART * first[held] * steps / steps[held] if held.size else first,
+            "two": SLOPE_APART * second[-1] * (steps / steps[-1]) ** 2,
         }
         self._run.location = 1e6 * run_step
         _hold(self.model.x_range, steps)
@@ -338,9 +340,9 @@ class DampingFigure:
 
 
 def _hold(ends, *values):
-    """Let a logarithmic axis show values, with a little room around them."""
+    """Let a logarithmic axis show values that there are, with a little room around them."""
     seen = np.concatenate(values)
-    ends.update(start=seen.min() / LOG_ROOM, end=seen.max() * LOG_ROOM)
+    ends.update(start=np.nanmin(seen) / LOG_ROOM, end=np.nanmax(seen) * LOG_ROOM)
 
 
 def _compared(run, exact):
