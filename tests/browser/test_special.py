@@ -13,6 +13,7 @@ pytestmark = pytest.mark.browser
 
 DATA = Path(__file__).parent.parent / "data"
 PAD = (DATA / "measured_stiffness" / "pad_1_to_30_hz.csv").read_bytes()
+FINITE_ELEMENT = (DATA / "measured_stiffness" / "finite_element_pad.csv").read_bytes()
 CATALOGUE = (DATA / "company_catalogue.toml").read_bytes()
 OPENING = tig.PRESETS["booted-block-low-mass"]
 
@@ -37,6 +38,22 @@ def test_a_table_becomes_the_pad_and_the_slider_comes_back(dashboard):
     dashboard.get_by_role("button", name="Remove from the pad").click()
     expect(slider(dashboard, "Pad stiffness, kN/mm")).to_be_visible()
     assert shown(dashboard, "Pad stiffness, kN/mm") == 100
+
+
+def test_a_table_with_the_wrong_unit_is_asked_about_before_it_can_be_used(dashboard):
+    open_tab(dashboard, "Track")
+    open_file(dashboard, "Open table", "pad.csv", b"# preload: 30 kN\n" + FINITE_ELEMENT)
+    expect(dashboard.get_by_text("are the figures in N/m?")).to_be_visible()
+    use = dashboard.get_by_role("button", name="Use for the pad")
+    expect(use).to_be_disabled()
+    dashboard.get_by_role("combobox", name="Unit of stiffness").select_option("N/m")
+    expect(dashboard.get_by_text("Stiffness in N/m, as chosen.")).to_be_visible()
+    expect(use).to_be_enabled()
+    use.click()
+    expect(chip(dashboard, "Pad stiffness")).to_have_text(
+        "measured at 200 frequencies, 199.5 to 3162 Hz, preload 30 kN"
+    )
+    expect(dashboard.get_by_text("Bands up to 160 Hz rest on extrapolation")).to_be_visible()
 
 
 def test_a_study_beyond_the_sliders_opens_and_a_hand_takes_over(dashboard):
