@@ -26,6 +26,7 @@ from dashboard.session.measuring import fit_text
 from dashboard.session.pins import base_design, current_design, shown_designs
 from dashboard.session.results import DesignResult, SolutionSummary
 from dashboard.session.special import curve_text
+from dashboard.teaching import left_out
 from trackig_core import table_text
 from trackig_core.bands import BANDS
 from trackig_core.levels import band_tables
@@ -249,6 +250,22 @@ def _add_report(commands):
     command.add_argument(
         "output", type=Path, metavar="OUT.html", help="where the report is written, - for standard output"
     )
+    command.add_argument(
+        "--ladder",
+        action="store_true",
+        help="also report what the simplified model leaves out of the current design, put back step by step",
+    )
+    command.add_argument(
+        "--vehicle",
+        choices=tig.VEHICLES,
+        help="generic vehicle of the ladder of a design that has none of its own; "
+        f"{left_out.OPENING_VEHICLE} unless given",
+    )
+    command.add_argument(
+        "--ground",
+        choices=tig.GROUNDS,
+        help=f"generic ground of the same; {left_out.OPENING_GROUND} unless given",
+    )
     _add_fidelity(command)
     _add_force(command)
 
@@ -467,8 +484,11 @@ def _report(options):
         raise CommandError(
             f"{options.output}: a report is an HTML file; write {page}, and print it to PDF from a browser"
         )
+    if not options.ladder and (options.vehicle or options.ground):
+        raise CommandError("--vehicle and --ground are those of the ladder: give --ladder too")
     opened = _open_study(options.study)
     _refuse_to_lose(options.output, options.force, options.study)
+    ladder = _ladder(opened, options) if options.ladder else None
     summaries = {
         design: _summary(design, options.fidelity)
         for design in {each.design for each in (*shown_designs(opened), base_design(opened))}
@@ -477,11 +497,28 @@ def _report(options):
         pages = cli_decide.pages_of(opened.answers)
     except tig.SolveCancelled:
         return STOPPED
-    report = html_report(opened, summaries, date=datetime.date.today(), version=tig.__version__, pages=pages)
+    report = html_report(
+        opened,
+        summaries,
+        date=datetime.date.today(),
+        version=tig.__version__,
+        pages=pages,
+        left_out=ladder,
+    )
     _write(options.output, report)
     if options.output != STANDARD_OUTPUT:
         sys.stdout.write(f"{options.output}\n")
     return 0
+
+
+def _ladder(study, options):
+    """Return what the simplified model leaves out of a study's current design."""
+    return left_out.left_out(
+        study.design,
+        options.vehicle or left_out.OPENING_VEHICLE,
+        options.ground or left_out.OPENING_GROUND,
+        study.view.summation,
+    )
 
 
 def _summary(design, fidelity):

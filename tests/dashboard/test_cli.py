@@ -3,6 +3,7 @@
 import contextlib
 import csv
 import dataclasses
+import html
 import json
 import os
 import re
@@ -140,6 +141,33 @@ def test_a_table_that_cannot_be_measured_of_a_track_is_told_in_one_line(capsys, 
     error = capsys.readouterr().err
     assert told in error
     assert error.count("\n") == 1
+
+
+def test_a_report_holds_the_ladder_if_that_is_asked_for(save, tmp_path, capsys):
+    page, title = tmp_path / "report.html", "What the simplified model leaves out"
+    words = ["report", save(), str(page), "--fidelity", "exact", "--force"]
+    assert main(words) == 0
+    assert title not in page.read_text(encoding="utf-8")
+    assert main([*words, "--ladder", "--vehicle", "metro", "--ground", "soft clay"]) == 0
+    text = page.read_text(encoding="utf-8")
+    ladder = tig.analysis.ladder(BLOCK, "metro", "soft clay")
+    assert title in text
+    assert "suspension, generic: metro; other axles, generic: metro; ground, generic: soft clay;" in text
+    assert html.escape(ladder.sentence) in text
+    assert main([*words, "--ladder"]) == 0
+    assert "suspension, generic: regional; " in page.read_text(encoding="utf-8")
+    # a design's own vehicle and ground are not replaced by what is generic
+    own = BLOCK.replace(
+        suspension=tig.Suspension(1e6, 1e4, 1e3), axle_positions=(0.0, 2.0), ground=tig.Ground(3e8, 1e6, 0.0)
+    )
+    words[1] = save(design=own)
+    assert main([*words, "--ladder", "--vehicle", "metro", "--ground", "soft clay"]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert "suspension, the design; other axles, the design; ground, the design;" in text
+    assert html.escape(tig.analysis.ladder(own).sentence) in text
+    capsys.readouterr()
+    assert main([*words, "--ground", "rock"]) == 2
+    assert "are those of the ladder: give --ladder too\n" in capsys.readouterr().err
 
 
 def test_fields_can_be_changed_and_cleared(capsys):
