@@ -130,7 +130,7 @@ FIELDS = {
         ),
         _of_range(
             *("pad_loss_factor", "Pad loss factor", "", 1.0, 0.01, "Rail pad"),
-            "Part of the pad's stiffness that damps, up to 2: it limits the peak at the loaded-track frequency.",
+            "Part of the pad's stiffness that damps: it limits the peak at the loaded track. Up to 2.",
             most=LOSS_FACTOR_MOST,
         ),
         _of_range(
@@ -145,7 +145,7 @@ FIELDS = {
         ),
         _of_range(
             *("boot_loss_factor", "Boot loss factor", "", 1.0, 0.01, "Block and boot"),
-            "Part of the boot's stiffness that damps, up to 2.",
+            "Part of the boot's stiffness that damps. Up to 2.",
             most=LOSS_FACTOR_MOST,
             second_stage=True,
         ),

@@ -15,7 +15,9 @@ from dashboard.compute.feasibility import where
 from dashboard.fields import ASKED_FIELDS
 from dashboard.report import plots
 from dashboard.session.answers import FIGURE_WORDS, TITLES, field_label, settings_texts, with_unit
+from dashboard.session.special import curve_text
 from trackig_core.decide.questions import digest
+from trackig_core.track.design import measured_curves
 
 MOST_ROWS = 24
 """Designs of a front that are listed [-]: what fits on a page; the CSV has all."""
@@ -103,6 +105,9 @@ def question_lines(answer):
         f"{field.label.lower()} {with_unit(name, design.value(name), 6)}"
         for name, field in ASKED_FIELDS.items()
         if isinstance(design.value(name), float)
+    ]
+    numbers += [
+        f"{FIELDS[name].label.lower()} {curve_text(curve)}" for name, curve in measured_curves(design).items()
     ]
     lines = [f"Asked of: {', '.join(numbers)}, rail {design.rail.name}."]
     if question.specification is not None:
