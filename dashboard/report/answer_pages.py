@@ -106,9 +106,7 @@ def question_lines(answer):
         for name, field in ASKED_FIELDS.items()
         if isinstance(design.value(name), float)
     ]
-    numbers += [
-        f"{FIELDS[name].label.lower()} {curve_text(curve)}" for name, curve in measured_curves(design).items()
-    ]
+    numbers += [f"{field_label(name)} {curve_text(curve)}" for name, curve in measured_curves(design).items()]
     lines = [f"Asked of: {', '.join(numbers)}, rail {design.rail.name}."]
     if question.specification is not None:
         lines.append(f"Held against: {question.specification.name}.")
