@@ -22,14 +22,19 @@ from dashboard import cli_decide, formats
 from dashboard.server.command import ServeError, add_arguments, serve
 from dashboard.session.bands import WIDE, bands_text, gain_in
 from dashboard.session.heading import Heading
+from dashboard.session.measuring import fit_text
 from dashboard.session.pins import base_design, current_design, shown_designs
 from dashboard.session.results import DesignResult, SolutionSummary
+from dashboard.session.special import curve_text
+from dashboard.teaching import left_out
+from trackig_core import table_text
 from trackig_core.bands import BANDS
 from trackig_core.levels import band_tables
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, reference_for
 from trackig_core.solver import FIDELITIES
 from trackig_core.study import studies
-from trackig_core.track.design import RANGES
+from trackig_core.track.design import RANGES, measured_curves
+from trackig_core.track.measured_tables import UNITS, read_stiffness
 from trackig_core.typed_numbers import NumberError, read_number
 
 FAILED, AT_FAULT, STOPPED, CUT_OFF = 1, 2, 130, 141
@@ -162,6 +167,19 @@ def _add_solve(commands):
         dest="changes",
         help="change a field, in SI units or with a unit, such as boot_stiffness=20kN/mm; may be given again",
     )
+    command.add_argument(
+        "--measured",
+        action="append",
+        default=[],
+        metavar="PART=FILE.csv",
+        help="the pad or boot is as this table of a test house has it: frequency, stiffness, loss factor, or "
+        "real and imaginary part; may be given again",
+    )
+    command.add_argument(
+        "--stiffness-unit",
+        choices=UNITS,
+        help="unit of the stiffness of these tables, whatever they say: the answer if it is asked",
+    )
     _add_fidelity(command)
     command.add_argument(
         "--wheel-load",
@@ -232,6 +250,22 @@ def _add_report(commands):
     command.add_argument(
         "output", type=Path, metavar="OUT.html", help="where the report is written, - for standard output"
     )
+    command.add_argument(
+        "--ladder",
+        action="store_true",
+        help="also report what the simplified model leaves out of the current design, put back step by step",
+    )
+    command.add_argument(
+        "--vehicle",
+        choices=tig.VEHICLES,
+        help="generic vehicle of the ladder of a design that has none of its own; "
+        f"{left_out.OPENING_VEHICLE} unless given",
+    )
+    command.add_argument(
+        "--ground",
+        choices=tig.GROUNDS,
+        help=f"generic ground of the same; {left_out.OPENING_GROUND} unless given",
+    )
     _add_fidelity(command)
     _add_force(command)
 
@@ -285,7 +319,7 @@ def _solve(options):
         _refuse_to_lose(path, options.force, options.track)
     study = _track(options.track)
     view, load = study.view, _load(study.load, options)
-    changed = study.design.replace(**dict(map(_change, options.changes)))
+    changed = study.design.replace(**_changes(options))
     solution = tig.solve(
         changed,
         options.fidelity,
@@ -350,6 +384,32 @@ def _change(text):
     except NumberError as error:
         allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
         raise CommandError(f"--set {text}: {error}; {field} is {allowed}") from None
+
+
+def _changes(options):
+    """Return the fields that the command line changes, by name."""
+    found = dict(map(_change, options.changes))
+    for text in options.measured:
+        part, equals, path = (each.strip() for each in text.partition("="))
+        if not equals or part not in ("pad", "boot"):
+            raise CommandError(f"--measured {text}: write pad=FILE.csv or boot=FILE.csv")
+        found[f"{part}_stiffness"] = _measured(Path(path), options.stiffness_unit)
+        found[f"{part}_loss_factor"] = None
+    return found
+
+
+def _measured(path, unit):
+    """Return the stiffness that a test house's table holds; an open question on its unit is an error."""
+    try:
+        reading = read_stiffness(_read(path, table_text.MOST_BYTES), unit)
+    except tig.MeasurementError as error:
+        raise CommandError(f"{path}: {error}") from None
+    if reading.question:
+        unit = reading.suggestion or reading.unit
+        raise CommandError(f"{path}: {reading.question} Give --stiffness-unit {unit}, or the unit that it is")
+    for note in reading.notes:
+        sys.stderr.write(f"trackig: {path}: {note}\n")
+    return reading.curve
 
 
 def _read(path, most):
@@ -424,8 +484,11 @@ def _report(options):
         raise CommandError(
             f"{options.output}: a report is an HTML file; write {page}, and print it to PDF from a browser"
         )
+    if not options.ladder and (options.vehicle or options.ground):
+        raise CommandError("--vehicle and --ground are those of the ladder: give --ladder too")
     opened = _open_study(options.study)
     _refuse_to_lose(options.output, options.force, options.study)
+    ladder = _ladder(opened, options) if options.ladder else None
     summaries = {
         design: _summary(design, options.fidelity)
         for design in {each.design for each in (*shown_designs(opened), base_design(opened))}
@@ -434,11 +497,28 @@ def _report(options):
         pages = cli_decide.pages_of(opened.answers)
     except tig.SolveCancelled:
         return STOPPED
-    report = html_report(opened, summaries, date=datetime.date.today(), version=tig.__version__, pages=pages)
+    report = html_report(
+        opened,
+        summaries,
+        date=datetime.date.today(),
+        version=tig.__version__,
+        pages=pages,
+        left_out=ladder,
+    )
     _write(options.output, report)
     if options.output != STANDARD_OUTPUT:
         sys.stdout.write(f"{options.output}\n")
     return 0
+
+
+def _ladder(study, options):
+    """Return what the simplified model leaves out of a study's current design."""
+    return left_out.left_out(
+        study.design,
+        options.vehicle or left_out.OPENING_VEHICLE,
+        options.ground or left_out.OPENING_GROUND,
+        study.view.summation,
+    )
 
 
 def _summary(design, fidelity):
@@ -496,6 +576,10 @@ def _solution_text(solution, gain, notes, statics):
     if natural.coupled_block is not None:
         lines.append(f"coupled block   {formats.frequency_text(natural.coupled_block)}")
     lines.append(_statics_text(statics))
+    lines += [
+        f"{name.replace('_', ' ')} {curve_text(curve)}; {fit_text(tig.analysis.curve_fit(curve))}"
+        for name, curve in measured_curves(solution.design).items()
+    ]
     lines += [f"note: {note}" for note in notes]
     return "\n".join(lines) + "\n"
 

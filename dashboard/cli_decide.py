@@ -9,6 +9,7 @@ Exit codes are those of :mod:`dashboard.cli`: 1 when nothing complies.
 
 import argparse
 import csv
+import dataclasses
 import datetime
 import io
 import json
@@ -489,9 +490,20 @@ def _json(answer, table):
         "sentence": answer.sentence,
         "digest": answer.digest,
         "versions": dict(answer.versions),
-        "rows": json.loads(table.to_json(orient="records", double_precision=15)),
+        "rows": json.loads(_with_plain_records(table).to_json(orient="records", double_precision=15)),
     }
     return json.dumps(found, indent=2, ensure_ascii=False) + "\n"
+
+
+def _with_plain_records(table):
+    """Return a table whose curves, suspensions and grounds are dicts of their fields."""
+    records = {name: values for name, values in table.items() if values.dtype == object}
+    return table.assign(
+        **{
+            name: [dataclasses.asdict(each) if dataclasses.is_dataclass(each) else each for each in values]
+            for name, values in records.items()
+        }
+    )
 
 
 def pages_of(answers):

@@ -8,7 +8,7 @@ cover too. What the core takes [SI] stands in ``RANGES`` of ``trackig_core.track
 from dataclasses import dataclass
 
 from trackig_core.decide.numbers import is_logarithmic
-from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, SEARCHED_RANGES
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, RANGES, SEARCHED_RANGES
 
 OPENING_PRESET = "booted-block-low-mass"
 """The preset on which the dashboard opens."""
@@ -21,6 +21,9 @@ KILONEWTON = 1e3
 
 KILOMETRE_PER_HOUR = 1 / 3.6
 """One km/h in m/s."""
+
+LOSS_FACTOR_MOST = RANGES["pad_loss_factor"][1]
+"""Greatest loss factor that the law of damping is fitted to [-]."""
 
 PRESET_LABELS = {
     "slab-track": "Slab track",
@@ -68,6 +71,9 @@ class Field:
         What its box says where it may be left empty; empty: it may not.
     figures : int
         Figures of the core's value [-]: more where the units are no power of ten apart.
+    most : float or None
+        Greatest value that its box takes [display units], where the slider then reaches further; None: the
+        slider's.
     """
 
     name: str
@@ -84,6 +90,12 @@ class Field:
     default: float | None = None
     blank: str = ""
     figures: int = 6
+    most: float | None = None
+
+    @property
+    def taken(self):
+        """Least and greatest value that its box takes [display units]."""
+        return self.low, self.high if self.most is None else self.most
 
     @property
     def labelled(self):
@@ -118,7 +130,8 @@ FIELDS = {
         ),
         _of_range(
             *("pad_loss_factor", "Pad loss factor", "", 1.0, 0.01, "Rail pad"),
-            "Part of the pad's stiffness that damps: it limits the peak at the loaded-track frequency.",
+            "Part of the pad's stiffness that damps: it limits the peak at the loaded track. Up to 2.",
+            most=LOSS_FACTOR_MOST,
         ),
         _of_range(
             *("block_mass", "Block mass", "kg", 1.0, 1, "Block and boot"),
@@ -132,7 +145,8 @@ FIELDS = {
         ),
         _of_range(
             *("boot_loss_factor", "Boot loss factor", "", 1.0, 0.01, "Block and boot"),
-            "Part of the boot's stiffness that damps.",
+            "Part of the boot's stiffness that damps. Up to 2.",
+            most=LOSS_FACTOR_MOST,
             second_stage=True,
         ),
         _of_range(

@@ -21,7 +21,7 @@ from trackig_core.levels.insertion_gain import SUMMATIONS, check_choice, check_r
 from trackig_core.results import ForceSpectrum, NaturalFrequencies, TimeHistory
 from trackig_core.solution import Solution
 from trackig_core.time_domain import adaptive_grid
-from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid
+from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, make_grid, paper_memory_order
 from trackig_core.time_domain.spectrum import block_to_rail, force_spectrum
 from trackig_core.time_domain.time_stepping import Ending, simulate
 from trackig_core.track.catalogue import PRESETS
@@ -69,7 +69,8 @@ def solve(
     design : TrackDesign or TrackModel
         The track; ``PRESETS`` has four.
     fidelity : str
-        ``"paper"``: the paper's finite-difference grid, time step, damping recursion and record.
+        ``"paper"``: the paper's finite-difference grid, time step, damping recursion and record; where so
+        much is lost that this recursion is unstable, one of second order, and ``notes`` says so.
         ``"live"``: the same scheme on the cheapest grid that keeps every band within 0.05 dB of the exact
         answer, with a second-order damping recursion; it says in ``grid`` and ``notes`` what it chose.
         ``"exact"``: the same lattice, infinitely long and in continuous time, solved frequency by
@@ -142,8 +143,9 @@ def solve(
         notes = _plan_notes(chosen, history) + _record_notes(model.design)
     else:
         grid = make_grid(model)
-        history, spectrum = _stepped(model, grid, 1, progress, cancelled)
-        notes = grid.notes + _extension_notes(grid, history) + _step_notes(model, grid)
+        order = paper_memory_order(model, grid.dt)
+        history, spectrum = _stepped(model, grid, 1, progress, cancelled, memory_order=order)
+        notes = grid.notes + _extension_notes(grid, history) + _step_notes(model, grid, order)
         notes += _record_notes(model.design)
     frequencies = natural_frequencies(model)
     return Solution(
@@ -321,15 +323,23 @@ def _sharpness_notes(spectrum: ForceSpectrum) -> tuple[str, ...]:
     return ("some resonances are too sharp to be resolved: do not trust their bands",)
 
 
-def _step_notes(model: TrackModel, grid: Grid) -> tuple[str, ...]:
-    """Return what is to be said of the error that the time step makes, if it is large."""
+def _step_notes(model: TrackModel, grid: Grid, memory_order: int) -> tuple[str, ...]:
+    """Return what is to be said of the damping memory, and of the time step's error if that is large."""
+    notes = () if memory_order == 1 else (SECOND_ORDER_NOTE,)
     try:
-        error = time_step_errors(model, [grid.dt], memory_order=1)[0]
+        error = time_step_errors(model, [grid.dt], memory_order)[0]
     except DesignError:  # for want of loss there is no frequency-domain solution to compare with
-        return ()
+        return notes
     if error <= LARGE_STEP_ERROR:
-        return ()
-    return (f"the paper's time step and damping memory cost up to {error:.1f} dB in a band",)
+        return notes
+    whose = "the paper's time step" + (" and damping memory" if memory_order == 1 else "")
+    return (*notes, f"{whose} cost up to {error:.1f} dB in a band")
+
+
+SECOND_ORDER_NOTE = (
+    "so much loss makes the paper's damping memory unstable at this time step: one of second order is used"
+)
+"""What is said of a run like the paper's that has another memory."""
 
 
 def compile_kernels() -> None:

@@ -43,6 +43,9 @@ _BOUND = re.compile("(" + "|".join(map(re.escape, sorted(_BOUNDS, key=len, rever
 _NOTHING = {"", ".", "..", "...", "…", "/", "n/a", "na", "n.a.", "k.a.", "k. a.", "none"}
 """What people write in a cell without a value, beside dashes."""
 
+LINE_ENDS = re.compile("\r\n|[\r\n\u2028\u2029]")
+"""What ends a line of a file."""
+
 _DASHES = re.compile("[-:\u2010-\u2015\u2212_]*")
 
 _LIKE_A_NUMBER = re.compile(r"[-+.,\u2010-\u2015\u2212\u00ad]*\d")
@@ -136,7 +139,7 @@ def read_cells(data: str | bytes, undecided: str | None = None) -> list[Row]:
     TableError
         If the data are no text, or too much of it.
     """
-    lines = _lines(_decoded(data))
+    lines = _lines(decoded(data))
     separator = _separator(lines[:SAMPLE])
     count = sum(len(line.split(separator or None)) for _, line in lines)
     if count > MOST_CELLS:
@@ -149,8 +152,19 @@ def read_cells(data: str | bytes, undecided: str | None = None) -> list[Row]:
     return [tuple(parsed(cell, decimal) for cell in row) for row in rows]
 
 
-def _decoded(data: str | bytes) -> str:
-    """Return a file's text."""
+def decoded(data: str | bytes) -> str:
+    """Return a file's text.
+
+    Parameters
+    ----------
+    data : str or bytes
+        What the file holds, in UTF-8, UTF-16 or the code of Western Windows.
+
+    Raises
+    ------
+    TableError
+        If the data are no text, or too much of it.
+    """
     if len(data) > MOST_BYTES:
         raise TableError(f"the file is larger than {MOST_BYTES // 1024} kB: give a table alone")
     text = data if isinstance(data, str) else _text(data)
@@ -176,7 +190,7 @@ def _text(data: bytes) -> str | None:
 
 def _lines(text: str) -> list[tuple[int, str]]:
     """Return the lines that hold anything, with their numbers."""
-    lines = re.split("\r\n|[\r\n\u2028\u2029]", text)
+    lines = LINE_ENDS.split(text)
     while lines and not lines[-1].strip():
         lines.pop()
     if len(lines) > MOST_LINES:

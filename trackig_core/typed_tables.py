@@ -71,7 +71,7 @@ class Column:
     @cached_property
     def is_frequency(self) -> bool:
         """Whether its unit, or for want of one its header, says that it holds frequencies."""
-        return _names_frequency(self.header, self.unit)
+        return names_frequency(self.header, self.unit)
 
     @property
     def values(self) -> RealArray:
@@ -285,15 +285,23 @@ def _ascends(values: Sequence[float], is_axis: Callable[[float], bool]) -> bool:
 def _begins_side(row: Row) -> bool:
     """Return whether a row begins by words on frequency."""
     first = _first(row)
-    return first.is_words and _names_frequency(first.text, unit_of_header(first.text))
+    return first.is_words and names_frequency(first.text, unit_of_header(first.text))
 
 
 def _first(row: Row) -> Cell:
     return next(cell for cell in row if not cell.is_blank)
 
 
-def _names_frequency(header: str, unit: Unit | None) -> bool:
-    """Return whether a unit, or for want of one a header, says that numbers are frequencies."""
+def names_frequency(header: str, unit: Unit | None) -> bool:
+    """Return whether a unit, or for want of one a header, says that numbers are frequencies.
+
+    Parameters
+    ----------
+    header : str
+        What stands above or beside them.
+    unit : Unit or None
+        The unit that it names.
+    """
     return unit.quantity == "frequency" if unit is not None else _FREQUENCY.search(header) is not None
 
 

@@ -244,13 +244,15 @@ class TimeStepFigure:
 
     def show(self, theory, run_step):
         """Draw the errors, and mark the time step of the run [s]."""
-        steps = 1e6 * theory.time_steps
+        steps, first, second = 1e6 * theory.time_steps, theory.first_order_errors, theory.second_order_errors
+        # an order that is unstable at the longest step has its slope pass where it last holds
+        held = np.flatnonzero(np.isfinite(first))[-1:]
         self.errors.data = {
             "step": steps,
-            "first": theory.first_order_errors,
-            "second": theory.second_order_errors,
-            "one": SLOPE_APART * theory.first_order_errors[-1] * steps / steps[-1],
-            "two": SLOPE_APART * theory.second_order_errors[-1] * (steps / steps[-1]) ** 2,
+            "first": first,
+            "second": second,
+            "one": SLOPE_APART * first[held] * steps / steps[held] if held.size else first,
+            "two": SLOPE_APART * second[-1] * (steps / steps[-1]) ** 2,
         }
         self._run.location = 1e6 * run_step
         _hold(self.model.x_range, steps)
@@ -338,10 +340,11 @@ class DampingFigure:
 
 
 def _hold(ends, *values):
-    """Let a logarithmic axis show values, with room for the whole of the dots at its ends."""
+    """Let a logarithmic axis show values that there are, with room for the whole of the dots at its ends."""
     seen = np.concatenate(values)
-    room = (seen.max() / seen.min()) ** LOG_ROOM
-    ends.update(start=seen.min() / room, end=seen.max() * room)
+    least, greatest = np.nanmin(seen), np.nanmax(seen)
+    room = (greatest / least) ** LOG_ROOM
+    ends.update(start=least / room, end=greatest * room)
 
 
 def _compared(run, exact):

@@ -5,6 +5,7 @@ the ground: kN over time [s], which is held once. Comma-separated, decimal point
 """
 
 import csv
+import dataclasses
 import io
 import json
 import re
@@ -14,6 +15,7 @@ from scipy.interpolate import CubicSpline
 
 import trackig_core as tig
 from dashboard import formats
+from dashboard.session.special import curve_text, is_curve
 
 SAME_TIME = 1e-9
 """Difference of two times that are the same [s]."""
@@ -120,7 +122,8 @@ def answer_csv(answer, result, heading):
     str
         Columns as the library names them, in SI units and to six figures, below the question, its answer in
         a sentence, and what is needed to obtain it again: every setting, versions, and the digest of all
-        figures.
+        figures. A measured curve stands as ``measured 1`` in its cells, and its points in a comment of that
+        name, in full; so do a suspension and a ground.
     """
     question = answer.question
     remarks = [
@@ -131,9 +134,40 @@ def answer_csv(answer, result, heading):
         f"versions: {', '.join(' '.join(each) for each in answer.versions.items())}",
         f"digest: {answer.digest}",
     ]
-    table = result.to_dataframe()
-    rows = ([_six_figures(cell) for cell in row] for row in table.itertuples(index=False, name=None))
+    table, named = result.to_dataframe(), {}
+    rows = [
+        [_six_figures(_named(cell, named)) for cell in row]
+        for row in table.itertuples(index=False, name=None)
+    ]
+    remarks += [f"{name}: {_record_text(record)}" for record, name in named.items()]
     return _written(remarks, table.columns, rows)
+
+
+_RECORDS = {
+    tig.StiffnessCurve: "measured",
+    tig.LossFactorCurve: "measured",
+    tig.Suspension: "suspension",
+    tig.Ground: "ground",
+}
+"""What cells call values that are no numbers or texts."""
+
+
+def _named(cell, named):
+    """Return a cell, a record by its name; each record (dict of names) has a name of its own."""
+    if type(cell) not in _RECORDS:
+        return cell
+    kind = _RECORDS[type(cell)]
+    count = sum(each.startswith(f"{kind} ") for each in named.values())
+    return named.setdefault(cell, f"{kind} {count + 1}")
+
+
+def _record_text(record):
+    """Return a record in words and in full: points as a study holds them, else numbers by name [SI]."""
+    if not is_curve(record):
+        numbers = dataclasses.asdict(record).items()
+        return ", ".join(f"{name} {value!r}" for name, value in numbers if value is not None)
+    columns = "Hz, N/m, loss factor" if isinstance(record, tig.StiffnessCurve) else "Hz, loss factor"
+    return f"{curve_text(record)}; rows of {columns}: {json.dumps(record.points)}"
 
 
 def _six_figures(cell):

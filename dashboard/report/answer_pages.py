@@ -15,7 +15,9 @@ from dashboard.compute.feasibility import where
 from dashboard.fields import ASKED_FIELDS
 from dashboard.report import plots
 from dashboard.session.answers import FIGURE_WORDS, TITLES, field_label, settings_texts, with_unit
+from dashboard.session.special import curve_text
 from trackig_core.decide.questions import digest
+from trackig_core.track.design import measured_curves
 
 MOST_ROWS = 24
 """Designs of a front that are listed [-]: what fits on a page; the CSV has all."""
@@ -104,6 +106,7 @@ def question_lines(answer):
         for name, field in ASKED_FIELDS.items()
         if isinstance(design.value(name), float)
     ]
+    numbers += [f"{field_label(name)} {curve_text(curve)}" for name, curve in measured_curves(design).items()]
     lines = [f"Asked of: {', '.join(numbers)}, rail {design.rail.name}."]
     if question.specification is not None:
         lines.append(f"Held against: {question.specification.name}.")

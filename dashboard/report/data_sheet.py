@@ -66,6 +66,7 @@ def data_sheet(result, heading, specification=None, source=None, measured=()):
         plot=plots.gain_svg([result], specification, _plot_height(inputs, tables), measured),
         measured=measured,
         beyond_measured=formats.extrapolated_text(heading.design),
+        limited=_is_limited(result, specification),
         tables=tables,
         longest_cell=max(len(text) for _, cells in bands for text, _ in cells),
         inputs=inputs,
@@ -106,7 +107,7 @@ def _bands(result, specification, measured):
     measured levels only in one-third octaves.
     """
     verdict, gain = result.verdict, result.shown_gain
-    limited = specification is not None and gain.bands == ONE_THIRD_OCTAVES
+    limited = _is_limited(result, specification)
     fails = verdict.fails if limited else np.zeros(gain.levels.size, bool)
     rows = [
         ("Band, Hz", [(label, False) for label in gain.bands.labels]),
@@ -123,6 +124,11 @@ def _bands(result, specification, measured):
             cells = [(level_text(levels.get(label, np.nan)), False) for label in gain.bands.labels]
             rows.append((f"Meas. {number}", cells))
     return rows
+
+
+def _is_limited(result, specification):
+    """Return whether limits are given for the bands that are shown."""
+    return specification is not None and result.shown_gain.bands == ONE_THIRD_OCTAVES
 
 
 def _cells(levels, fails):

@@ -175,7 +175,7 @@ def read_input(name, given, reach=None, dynamic=None):
     given : object
         A value, or text as it was typed, with or without unit.
     reach : tuple of float, optional
-        Least and greatest value [display unit]; by default those of the slider.
+        Least and greatest value [display unit]; by default those that the box takes.
     dynamic : float, optional
         The dynamic stiffness, where a static one may be given as a part of it [display unit].
 
@@ -198,7 +198,7 @@ def read_input(name, given, reach=None, dynamic=None):
         return given
     if field.blank and (given is None or (isinstance(given, str) and not given.strip())):
         return None
-    unit, (low, high) = field.unit, reach or (field.low, field.high)
+    unit, (low, high) = field.unit, reach or field.taken
     takes = f"{quantity_text(low)} to {quantity_text(high)} {unit}".rstrip()
     if isinstance(given, str):
         ratio = None if dynamic is None else RATIO.fullmatch(given.strip())
@@ -365,7 +365,8 @@ class DesignInputs(param.Parameterized):
         ----------
         given : mapping
             What was given, whatever it is, by name; names that are no inputs are passed over. A preset sets
-            all other inputs first. A number beyond a slider is taken where the slider has been extended.
+            all other inputs first. A number beyond a slider is taken where its box takes more, or the slider
+            has been extended.
         gesture : int, optional
             Number of the gesture that gave it.
         """
@@ -434,7 +435,7 @@ class DesignInputs(param.Parameterized):
             numbers |= {name: getattr(rail, name) for name in RAIL_FIELDS}
         for name, value in numbers.items():
             field, shown = fields[name], fields[name].to_display(value)
-            low, high = self._reach.get(name, (field.low, field.high))
+            low, high = self._reach.get(name, field.taken)
             self._reach[name] = min(low, shown), max(high, shown)
 
     def _surroundings(self, given):

@@ -53,6 +53,16 @@ def with_curve(inputs, part, curve):
     return special if curve is None else {**special, fields[0]: curve}
 
 
+def fit_text(fit):
+    """Return how well a law (trackig_core.analysis.CurveFit) follows what was measured, in words."""
+    if fit.error_at_points is None:
+        return "no point lies from 5 to 500 Hz, where the law is fitted"
+    return (
+        f"fit error {fit.error_at_points:.1%} at most at the points from 5 to 500 Hz, "
+        f"{fit.error_between:.1%} against straight lines between them"
+    )
+
+
 def extrapolated_words(curve):
     """Return which bands rest on extrapolation of a curve, in words; empty if none does."""
     bands = curve.extrapolated_bands

@@ -11,6 +11,7 @@ from dashboard.fields import (
     ASKED_FIELDS,
     EVERY_FIELD,
     EXTRAS,
+    KILONEWTON,
     NEWTON_PER_METRE,
     NUMBERS,
     SECOND_STAGE,
@@ -136,9 +137,11 @@ def _rail_figures(rail):
 
 
 def curve_text(curve):
-    """Return what a curve is in words: how many points, and where."""
+    """Return what a curve is in words: how many points, where, and under which preload if it is stated."""
     first, last = (quantity_text(curve.points[end][0]) for end in (0, -1))
-    return f"measured at {len(curve.points)} frequencies, {first} to {last} Hz"
+    words = f"measured at {len(curve.points)} frequencies, {first} to {last} Hz"
+    preload = getattr(curve, "preload", None)
+    return words if preload is None else f"{words}, preload {quantity_text(preload / KILONEWTON)} kN"
 
 
 def _has_own_loss(design, field):

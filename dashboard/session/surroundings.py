@@ -5,6 +5,7 @@ the catalogue gives is a study's own: it is shown as such and kept to the last d
 """
 
 import trackig_core as tig
+from dashboard.fields import KILONEWTON, NEWTON_PER_METRE
 from dashboard.formats import quantity_text
 from trackig_core.analysis.ladder import DEFAULT_VEHICLE
 from trackig_core.track.design import ONE_AXLE
@@ -147,7 +148,26 @@ def text(design, name):
         return "one wheel" if key == NONE else f"at {at} m, {_roughness(design)}"
     if key == NONE:
         return "rigid" if name == "ground" else "unsprung wheel"
-    return "own values" if key == OWN else f"{key} (generic)"
+    return _own_text(values[name]) if key == OWN else f"{key} (generic)"
+
+
+def _own_text(value):
+    """Return the figures of a suspension or ground that no entry of the catalogue gives, in words."""
+    if isinstance(value, tig.Ground):
+        return f"own: {_spring_text(value.stiffness, value.damping)}, {quantity_text(value.mass)} kg"
+    primary = _spring_text(value.primary_stiffness, value.primary_damping)
+    words = f"own: primary {primary}; bogie {quantity_text(value.bogie_mass)} kg"
+    if value.body_mass is None:
+        return words
+    secondary = _spring_text(value.secondary_stiffness, value.secondary_damping)
+    return f"{words}; secondary {secondary}; body {quantity_text(value.body_mass)} kg"
+
+
+def _spring_text(stiffness, damping):
+    """Return a stiffness [N/m] and a dashpot [N s/m] in words."""
+    return (
+        f"{quantity_text(stiffness / NEWTON_PER_METRE)} kN/mm, {quantity_text(damping / KILONEWTON)} kN s/m"
+    )
 
 
 def sentence(design):

@@ -17,7 +17,8 @@ from dashboard.client.exchange import opening
 from dashboard.compute.document import NextTick
 from dashboard.fields import NEWTON_PER_METRE
 from dashboard.figures.measured import MeasuredFigure
-from dashboard.session.measuring import curve_of, extrapolated_words, with_curve
+from dashboard.session.measuring import curve_of, extrapolated_words, fit_text, with_curve
+from dashboard.session.special import curve_text
 from dashboard.views.components import bokeh_pane, caption, panel
 from trackig_core.table_text import MOST_BYTES
 from trackig_core.track.measured_curves import MeasurementError
@@ -217,14 +218,8 @@ def _sentence(words):
 
 
 def curve_words(curve, fit):
-    """Return what is to be said of a curve and its law, as sentences: fit error, extrapolated bands."""
-    at_points = fit.error_at_points
-    said = [
-        "No point lies from 5 to 500 Hz, where the law is fitted."
-        if at_points is None
-        else f"Fit error: {at_points:.1%} at most at the points from 5 to 500 Hz, "
-        f"{fit.error_between:.1%} against straight lines between them."
-    ]
+    """Return what is to be said of a curve and its law: what was measured, fit error, extrapolated bands."""
+    said = [_sentence(curve_text(curve)), _sentence(fit_text(fit))]
     return [*said, *filter(None, [extrapolated_words(curve)])]
 
 

@@ -158,7 +158,7 @@ class Verify(Tab):
         grid = solution.grid
         self.time_step.show(theory, grid.dt)
         self.element.show(theory, solution.design.fastener_spacing, grid.dx)
-        time_error = np.interp(grid.dt, theory.time_steps, theory.first_order_errors)
+        time_error = np.interp(grid.dt, theory.time_steps, theory.run_errors)
         element_error = theory.element_errors[
             np.argmin(np.abs(theory.elements_per_bay - grid.elements_per_bay))
         ]

@@ -256,10 +256,10 @@ EVERYTHING = tig.PRESETS["booted-block-low-mass"].replace(
     pad_static_stiffness=80e6,
     boot_static_stiffness=12e6,
     stiffness_frequency=20.0,
-    suspension=tig.VEHICLES["regional"].suspension,
+    suspension=tig.Suspension(1.23456e6, 34.5678e3, 1234.56, 0.234567e6, 12.3456e3, 7654.32),
     axle_positions=(0.0, 2.4, 7.0, 9.4, 14.0, 16.4, 21.0, 23.4),
     speed=22.3,
-    ground=tig.GROUNDS["soft clay"],
+    ground=tig.Ground(123.456e6, 456.789e3, 234.567),
 )
 
 

@@ -6,13 +6,14 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
-from tests.browser.test_dashboard import box, shown, slider
+from tests.browser.test_dashboard import box, shown, slider, wait_for_levels
 from tests.browser.test_workshop import open_file, open_tab
 
 pytestmark = pytest.mark.browser
 
 DATA = Path(__file__).parent.parent / "data"
 PAD = (DATA / "measured_stiffness" / "pad_1_to_30_hz.csv").read_bytes()
+FINITE_ELEMENT = (DATA / "measured_stiffness" / "finite_element_pad.csv").read_bytes()
 CATALOGUE = (DATA / "company_catalogue.toml").read_bytes()
 OPENING = tig.PRESETS["booted-block-low-mass"]
 
@@ -37,6 +38,36 @@ def test_a_table_becomes_the_pad_and_the_slider_comes_back(dashboard):
     dashboard.get_by_role("button", name="Remove from the pad").click()
     expect(slider(dashboard, "Pad stiffness, kN/mm")).to_be_visible()
     assert shown(dashboard, "Pad stiffness, kN/mm") == 100
+
+
+def test_a_table_with_the_wrong_unit_is_asked_about_before_it_can_be_used(dashboard):
+    open_tab(dashboard, "Track")
+    open_file(dashboard, "Open table", "pad.csv", b"# preload: 30 kN\n" + FINITE_ELEMENT)
+    expect(dashboard.get_by_text("are the figures in N/m?")).to_be_visible()
+    use = dashboard.get_by_role("button", name="Use for the pad")
+    expect(use).to_be_disabled()
+    dashboard.get_by_role("combobox", name="Unit of stiffness").select_option("N/m")
+    expect(dashboard.get_by_text("Stiffness in N/m, as chosen.")).to_be_visible()
+    expect(use).to_be_enabled()
+    use.click()
+    expect(chip(dashboard, "Pad stiffness")).to_have_text(
+        "measured at 200 frequencies, 199.5 to 3162 Hz, preload 30 kN"
+    )
+    expect(dashboard.get_by_text("Bands up to 160 Hz rest on extrapolation")).to_be_visible()
+
+
+def test_a_loss_factor_beyond_the_slider_is_typed_solved_and_its_fit_told(dashboard):
+    box(dashboard, "Boot loss factor").fill("2.5")
+    box(dashboard, "Boot loss factor").press("Enter")
+    expect(dashboard.get_by_text("give 0.01 to 2", exact=True)).to_be_visible()
+    box(dashboard, "Boot loss factor").fill("1.8")
+    box(dashboard, "Boot loss factor").press("Enter")
+    wait_for_levels(dashboard, tig.solve(OPENING.replace(boot_loss_factor=1.8)).insertion_gain)
+    expect(slider(dashboard, "Boot loss factor")).to_have_attribute("aria-valuetext", "1.8")
+    status = dashboard.get_by_role("status").filter(has_text="one of second order is used")
+    expect(status.first).to_be_visible()
+    open_tab(dashboard, "Verify")
+    expect(dashboard.get_by_text("Three relaxation terms keep the loss factor within 4.9%")).to_be_visible()
 
 
 def test_a_study_beyond_the_sliders_opens_and_a_hand_takes_over(dashboard):

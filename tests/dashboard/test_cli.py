@@ -3,8 +3,10 @@
 import contextlib
 import csv
 import dataclasses
+import html
 import json
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -71,6 +73,101 @@ def test_a_study_is_solved_as_it_is_looked_at(capsys, save):
     np.testing.assert_allclose(bands(text), expected, atol=0.0501)
     assert main(["solve", path, "--fidelity", "exact", "--reference", "line"]) == 0
     assert "reference line, summation coherent" in capsys.readouterr().out
+
+
+def test_what_was_measured_is_named_with_its_preload(capsys, save):
+    curve = tig.StiffnessCurve([(1, 310.4e6, 0.151), (10, 605.7e6, 0.151), (30, 671e6, 0.151)], preload=30e3)
+    path = save(design=BLOCK.replace(pad_stiffness=curve, pad_loss_factor=None))
+    assert main(["solve", path, "--fidelity", "exact", "--json", str(Path(path).with_name("out.json"))]) == 0
+    text = capsys.readouterr().out
+    assert "pad stiffness measured at 3 frequencies, 1 to 30 Hz, preload 30 kN; fit error " in text
+    found = json.loads(Path(path).with_name("out.json").read_text(encoding="utf-8"))
+    assert found["design"]["pad_stiffness"] == {
+        "points": [list(row) for row in curve.points],
+        "preload": 30e3,
+    }
+
+
+TABLES = ROOT / "tests" / "data" / "measured_stiffness"
+
+
+@pytest.mark.parametrize(
+    ("name", "part", "extrapolated"),
+    [("pad_1_to_30_hz", "pad", "from 31.5 Hz on"), ("polyurethane", "boot", "up to 8 Hz")],
+)
+def test_a_test_house_s_table_becomes_the_pad_or_boot(capsys, name, part, extrapolated):
+    path = TABLES / f"{name}.csv"
+    assert main(["solve", "booted-sleeper", "--fidelity", "exact", "--measured", f"{part}={path}"]) == 0
+    text = capsys.readouterr().out
+    curve = tig.study.read_stiffness(path.read_bytes()).curve
+    changes = {f"{part}_stiffness": curve, f"{part}_loss_factor": None}
+    design = tig.PRESETS["booted-sleeper"].replace(**changes)
+    np.testing.assert_allclose(bands(text), tig.solve(design, "exact").insertion_gain, atol=0.0501)
+    assert f"bands {extrapolated} rest on extrapolation" in text
+    error = float(re.search(rf"{part} stiffness measured at 3 .*; fit error ([\d.]+)% at most", text)[1])
+    assert error < 5
+
+
+def test_a_table_whose_unit_no_pad_has_is_asked_about_and_the_answer_is_taken(capsys):
+    words = [
+        "solve",
+        "slab-track",
+        "--fidelity",
+        "exact",
+        "--measured",
+        f"pad={TABLES / 'finite_element_pad.csv'}",
+    ]
+    assert main(words) == 2
+    told = capsys.readouterr().err
+    assert "pads have 1 to 10,000: are the figures in N/m? Give --stiffness-unit N/m" in told
+    assert main([*words, "--stiffness-unit", "N/m"]) == 0
+    text = capsys.readouterr().out
+    assert "pad stiffness measured at 200 frequencies, 199.5 to 3162 Hz; fit error " in text
+    assert "bands up to 160 Hz rest on extrapolation" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("block=x.csv", "write pad=FILE.csv or boot=FILE.csv"),
+        ("x.csv", "write pad=FILE.csv or boot=FILE.csv"),
+        ("pad=none.csv", "none.csv: No such file"),
+        (f"boot={TABLES / 'polyurethane.csv'}", "boot_stiffness"),
+        (f"pad={TABLES / 'README.md'}", "README.md: "),
+    ],
+)
+def test_a_table_that_cannot_be_measured_of_a_track_is_told_in_one_line(capsys, words, told):
+    assert main(["solve", "slab-track", "--measured", words]) == 2
+    error = capsys.readouterr().err
+    assert told in error
+    assert error.count("\n") == 1
+
+
+def test_a_report_holds_the_ladder_if_that_is_asked_for(save, tmp_path, capsys):
+    page, title = tmp_path / "report.html", "What the simplified model leaves out"
+    words = ["report", save(), str(page), "--fidelity", "exact", "--force"]
+    assert main(words) == 0
+    assert title not in page.read_text(encoding="utf-8")
+    assert main([*words, "--ladder", "--vehicle", "metro", "--ground", "soft clay"]) == 0
+    text = page.read_text(encoding="utf-8")
+    ladder = tig.analysis.ladder(BLOCK, "metro", "soft clay")
+    assert title in text
+    assert "suspension, generic: metro; other axles, generic: metro; ground, generic: soft clay;" in text
+    assert html.escape(ladder.sentence) in text
+    assert main([*words, "--ladder"]) == 0
+    assert "suspension, generic: regional; " in page.read_text(encoding="utf-8")
+    # a design's own vehicle and ground are not replaced by what is generic
+    own = BLOCK.replace(
+        suspension=tig.Suspension(1e6, 1e4, 1e3), axle_positions=(0.0, 2.0), ground=tig.Ground(3e8, 1e6, 0.0)
+    )
+    words[1] = save(design=own)
+    assert main([*words, "--ladder", "--vehicle", "metro", "--ground", "soft clay"]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert "suspension, the design; other axles, the design; ground, the design;" in text
+    assert html.escape(tig.analysis.ladder(own).sentence) in text
+    capsys.readouterr()
+    assert main([*words, "--ground", "rock"]) == 2
+    assert "are those of the ladder: give --ladder too\n" in capsys.readouterr().err
 
 
 def test_fields_can_be_changed_and_cleared(capsys):

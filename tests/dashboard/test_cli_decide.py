@@ -204,6 +204,18 @@ def test_find_takes_measured_components_of_a_catalogue(save, tmp_path, capsys):
     rows = table(out)
     assert [row["pad"] for row in rows] == list(expected.chosen["pad"])
     assert [row["slack"] for row in rows] == [f"{each:.6g}" for each in expected.slack]
+    text = out.read_text(encoding="utf-8")
+    assert "Curve(" not in text.split("digest", 1)[1]
+    points = {
+        name: json.loads(rows_of)
+        for name, rows_of in re.findall(
+            r"^# (measured \d+): .*; rows of Hz, N/m, loss factor: (.*)$", text, re.M
+        )
+    }
+    number = next(at for at, row in enumerate(rows) if row["pad_stiffness"] in points)
+    curve = tig.StiffnessCurve(points[rows[number]["pad_stiffness"]])
+    assert curve.points == expected.many.design(number).pad_stiffness.points
+    assert {row["pad_stiffness"] for row in rows if row["pad"] == rows[number]["pad"]} == {*points}
     said = capsys.readouterr().out
     assert said.endswith(f"\n{expected}\n")
     assert expected.chosen["pad"][expected.closest] in said

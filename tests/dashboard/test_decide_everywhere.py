@@ -94,3 +94,10 @@ def test_the_figures_are_the_same_everywhere(kind, tmp_path, monkeypatch, capsys
     assert said["digest"] == digest(expected)
     assert said["sentence"] == str(expected)
     assert len(said["rows"]) == len(expected.to_dataframe())
+    if kind == "find":
+        curve = CATALOGUE.of_kind("pad")["Measured"].values["pad_stiffness"]
+        measured = next(each for each in said["rows"] if each["pad"] == "Measured")
+        assert measured["pad_stiffness"] == {
+            "points": [list(point) for point in curve.points],
+            "preload": curve.preload,
+        }

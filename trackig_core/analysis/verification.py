@@ -17,7 +17,8 @@ from trackig_core.frequency_domain.refinement import banded_spectrum
 from trackig_core.frequency_domain.track_model import track_model
 from trackig_core.results import ForceSpectrum
 from trackig_core.solution import Solution
-from trackig_core.time_domain.grid import stable_time_step
+from trackig_core.time_domain.adaptive_grid import MEMORY_ORDER
+from trackig_core.time_domain.grid import paper_memory_order, stable_time_step
 
 FACTORS = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
 """Time steps of the convergence study, in parts of the run's [-]; those that are unstable are left out."""
@@ -39,7 +40,10 @@ class Verification:
     time_steps : numpy.ndarray (steps,) [s]
         Time steps at which the scheme is stable.
     first_order_errors, second_order_errors : numpy.ndarray (steps,) [dB]
-        Largest error of insertion gain in any band at each time step, by rule of the damping memory.
+        Largest error of insertion gain in any band at each time step, by rule of the damping memory; NaN
+        where the first order is unstable.
+    memory_order : int
+        Order of the run's own memory.
     elements_per_bay : numpy.ndarray (numbers,) [-]
         Elements a bay.
     element_errors : numpy.ndarray (numbers,) [dB]
@@ -48,11 +52,17 @@ class Verification:
 
     exact: ForceSpectrum
     scheme: ForceSpectrum
+    memory_order: int
     time_steps: RealArray = field(repr=False)
     first_order_errors: RealArray = field(repr=False)
     second_order_errors: RealArray = field(repr=False)
     elements_per_bay: IntArray = field(repr=False)
     element_errors: RealArray = field(repr=False)
+
+    @property
+    def run_errors(self) -> RealArray:
+        """Largest error of insertion gain at each time step by the run's own memory (steps,) [dB]."""
+        return self.first_order_errors if self.memory_order == 1 else self.second_order_errors
 
 
 def verify(solution: Solution) -> Verification:
@@ -85,15 +95,20 @@ def verify(solution: Solution) -> Verification:
             f"a solution of fidelity {solution.fidelity!r} was not stepped in time: give one that was"
         )
     model = track_model(solution.design)
-    lattice = Lattice(grid.elements_per_bay, grid.bays, grid.dt)
+    order = MEMORY_ORDER if solution.fidelity == "live" else paper_memory_order(model, grid.dt)
+    lattice = Lattice(grid.elements_per_bay, grid.bays, grid.dt, memory_order=order)
     time_steps = grid.dt * FACTORS
     time_steps = time_steps[time_steps < stable_time_step(model, grid.dx)]
+    first_order_errors = np.full(time_steps.shape, np.nan)
+    holds = np.array([paper_memory_order(model, each) == 1 for each in time_steps], bool)
+    first_order_errors[holds] = time_step_errors(model, time_steps[holds], memory_order=1)
     step = solution.spectrum.step
     return Verification(
         exact=banded_spectrum(model, step=step),
         scheme=exact_spectrum(model, solution.spectrum.frequency, step, lattice),
         time_steps=time_steps,
-        first_order_errors=time_step_errors(model, time_steps, memory_order=1),
+        memory_order=order,
+        first_order_errors=first_order_errors,
         second_order_errors=time_step_errors(model, time_steps, memory_order=2),
         elements_per_bay=ELEMENTS,
         element_errors=element_errors(model, ELEMENTS),

@@ -187,7 +187,7 @@ def find(
         What is chosen from a catalogue: values by field, or by any other name dicts of several fields at
         once, each of which may have a ``"cost"``, and with the name of a ``"component"`` stands for the whole
         pad or boot, as :meth:`trackig_core.study.Component.choice` gives it. A rail is a ``Rail``, its name
-        or a dict of its fields; what is measured is a curve, or a list of its rows.
+        or a dict of its fields; what is measured is a curve, or a list of its rows, or a dict of its fields.
     objectives : sequence of str
         One or more of ``"margin"`` (as great as possible), other figures (see ``Requirements.values``),
         fields that are numbers, and ``"cost"``, all as small as possible.
@@ -390,6 +390,11 @@ def _made(name: str, given: Any) -> Any:
     if isinstance(given, list | tuple):
         rows: Any = given  # the curve checks them
         return LossFactorCurve(rows) if name.endswith("loss_factor") else StiffnessCurve(rows)
+    if name.endswith("_stiffness") and isinstance(given, Mapping):
+        try:
+            return StiffnessCurve(**given)
+        except TypeError:
+            raise ValueError(f"{name} {brief(dict(given))}: give points and preload") from None
     return given
 
 

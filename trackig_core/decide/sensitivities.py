@@ -12,7 +12,7 @@ Morris' elementary effects are not offered: they rank fields with few solutions,
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -189,7 +189,8 @@ def _changes(design: TrackDesign, changes: float | Mapping[str, float]) -> dict[
 def _scaled(value: Any, factor: float) -> Any:
     """Return a number, or a measured curve at every frequency, times a factor."""
     if isinstance(value, StiffnessCurve):
-        return StiffnessCurve(tuple((hz, factor * stiffness, loss) for hz, stiffness, loss in value.points))
+        points = tuple((hz, factor * stiffness, loss) for hz, stiffness, loss in value.points)
+        return replace(value, points=points)
     if isinstance(value, LossFactorCurve):
         return LossFactorCurve(tuple((hz, factor * loss) for hz, loss in value.points))
     return factor * value

@@ -19,9 +19,9 @@ from tomlkit.items import Table
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 from trackig_core.study.records import StudyError
 from trackig_core.study.toml_format import (
-    _CURVE_ROWS,
     _RAIL_KEYS,
-    _add_rows,
+    _add_curve,
+    _curve,
     _made,
     _number,
     _parsed,
@@ -29,7 +29,7 @@ from trackig_core.study.toml_format import (
 )
 from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.fields import DesignError, check_number
-from trackig_core.track.measured_curves import LossFactorCurve, MeasurementError, StiffnessCurve
+from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 from trackig_core.track.rails import RAILS, STEEL_MODULUS, Rail
 from trackig_core.track.viscoelastic_law import relaxation
 
@@ -57,6 +57,8 @@ _CURVE_KEYS: dict[str, tuple[str, type[StiffnessCurve] | type[LossFactorCurve]]]
     "loss_factor": ("loss_factor_measured", LossFactorCurve),
 }
 """Key and class of what may be given as measured over frequency."""
+
+_PRELOAD_KEY = "preload_N"
 
 _FREQUENCY_KEY = "stiffness_frequency_Hz"
 
@@ -131,7 +133,8 @@ class Component:
         -------
         dict
             Plain values [SI units], as a question and its file hold them: the name as ``"component"``, fields
-            that are known, curves as lists of rows, a known rail by its name.
+            that are known, curves as lists of rows, or as dicts of ``"points"`` and ``"preload"``, a known
+            rail by its name.
 
         Raises
         ------
@@ -148,7 +151,9 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Rail):
         return value.name if RAILS.get(value.name) == value else asdict(value)
     if isinstance(value, StiffnessCurve | LossFactorCurve):
-        return [list(row) for row in value.points]
+        rows = [list(row) for row in value.points]
+        preload = getattr(value, "preload", None)
+        return rows if preload is None else {"points": rows, "preload": preload}
     return value
 
 
@@ -304,18 +309,14 @@ def _spring(kind: str, section: _Section) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for name, key in _SPRING_KEYS.items():
         value = section.take(key)
-        curve_key, curve = _CURVE_KEYS.get(name, ("", LossFactorCurve))
-        points = section.take(curve_key) if curve_key else None
-        if points is not None and value is not None:
-            raise StudyError(f"give this or {key}, not both", section.under(curve_key))
-        if points is not None:
-            try:
-                value = curve(points)
-            except MeasurementError as error:
-                raise StudyError(str(error), section.under(curve_key)) from None
-        elif value is not None:
-            value = _checked(f"{kind}_{name}", key, value, section)
-        values[f"{kind}_{name}"] = value
+        if name in _CURVE_KEYS:
+            curve_key, curve_kind = _CURVE_KEYS[name]
+            curve = _curve(section, curve_key, curve_kind, _PRELOAD_KEY if name == "stiffness" else None)
+            if curve is not None and value is not None:
+                raise StudyError(f"give this or {key}, not both", section.under(curve_key))
+            value = curve or value
+        is_number = value is not None and not isinstance(value, StiffnessCurve | LossFactorCurve)
+        values[f"{kind}_{name}"] = _checked(f"{kind}_{name}", key, value, section) if is_number else value
     measured = isinstance(values[f"{kind}_stiffness"], StiffnessCurve)
     if values[f"{kind}_stiffness"] is None:
         raise StudyError("it is missing", section.under(_SPRING_KEYS["stiffness"]))
@@ -347,7 +348,7 @@ def _written(component: Component) -> Table:
         for name, key in _SPRING_KEYS.items():
             value = values[f"{component.kind}_{name}"]
             if isinstance(value, StiffnessCurve | LossFactorCurve):
-                _add_rows(table, _CURVE_KEYS[name][0], value.points, _CURVE_ROWS[type(value)])
+                _add_curve(table, _CURVE_KEYS[name][0], value, _PRELOAD_KEY)
             elif value is not None:
                 table.add(key, _number(value))
         if component.stiffness_frequency != REFERENCE_FREQUENCY:

@@ -13,7 +13,7 @@ import difflib
 import textwrap
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -100,6 +100,9 @@ _CURVES: dict[str, tuple[str, type[StiffnessCurve] | type[LossFactorCurve]]] = {
     "boot_loss_factor": ("boot_loss_factor_measured", LossFactorCurve),
 }
 """Key and class of what may be given as measured over frequency."""
+
+_PRELOAD_KEYS = {"pad_stiffness": "pad_preload_N", "boot_stiffness": "boot_preload_N"}
+"""Key of the preload of a measured stiffness."""
 
 _CURVE_ROWS = {
     StiffnessCurve: "rows of frequency [Hz], dynamic stiffness [N/m], loss factor [-]",
@@ -346,15 +349,10 @@ def _answer(section: _Section) -> Answer:
 def _design(section: _Section) -> TrackDesign:
     values = {name: section.take(key, _OPTIONAL.get(name)) for name, key in _DESIGN_KEYS.items()}
     for name, (key, kind) in _CURVES.items():
-        points = section.take(key)
-        if points is None:
-            continue
-        if values[name] is not None:
+        curve = _curve(section, key, kind, _PRELOAD_KEYS.get(name))
+        if curve is not None and values[name] is not None:
             raise StudyError(f"give this or {_DESIGN_KEYS[name]}, not both", section.under(key))
-        try:
-            values[name] = kind(points)
-        except MeasurementError as error:
-            raise StudyError(str(error), section.under(key)) from None
+        values[name] = values[name] if curve is None else curve
     for part in ("pad", "boot"):
         if (
             isinstance(values[f"{part}_stiffness"], StiffnessCurve)
@@ -371,6 +369,31 @@ def _design(section: _Section) -> TrackDesign:
     rail = _made(Rail, rail_values, _RAIL_KEYS, rail_section)
     given = {name: value for name, value in around.items() if value is not None}
     return _made(TrackDesign, {**values, **given, "rail": rail}, _DESIGN_KEYS | _AXLE_KEYS, section)
+
+
+def _curve(
+    section: _Section,
+    key: str,
+    kind: type[StiffnessCurve] | type[LossFactorCurve],
+    preload_key: str | None = None,
+) -> StiffnessCurve | LossFactorCurve | None:
+    """Return what was measured, with its preload if it may have one, or None if nothing was."""
+    points = section.take(key)
+    preload = None if preload_key is None else section.take(preload_key)
+    if points is None:
+        if preload is not None:
+            message = f"remove it, or give {key}: a preload is that of a measurement"
+            raise StudyError(message, section.under(str(preload_key)))
+        return None
+    at = key
+    try:
+        curve = kind(points)
+        if isinstance(curve, StiffnessCurve) and preload is not None:
+            at = str(preload_key)
+            curve = replace(curve, preload=preload)
+    except MeasurementError as error:
+        raise StudyError(str(error), section.under(at)) from None
+    return curve
 
 
 def _part(
@@ -504,7 +527,7 @@ def _written_design(design: TrackDesign) -> Table:
     for name, key in _DESIGN_KEYS.items():
         value = getattr(design, name)
         if isinstance(value, StiffnessCurve | LossFactorCurve):
-            _add_rows(table, _CURVES[name][0], value.points, _CURVE_ROWS[type(value)])
+            _add_curve(table, _CURVES[name][0], value, _PRELOAD_KEYS.get(name, ""))
         elif value is not None and value != _OPTIONAL.get(name):
             table.add(key, _number(value))
     rail = tomlkit.table()
@@ -555,6 +578,13 @@ def _add_rows(table: Table, key: str, points: Iterable[Iterable[float]], comment
     rows.add_line(indent="")
     table.add(tomlkit.comment(comment))
     table.add(key, rows)
+
+
+def _add_curve(table: Table, key: str, curve: StiffnessCurve | LossFactorCurve, preload_key: str) -> None:
+    """Write what was measured, and its preload if one is stated."""
+    _add_rows(table, key, curve.points, _CURVE_ROWS[type(curve)])
+    if isinstance(curve, StiffnessCurve) and curve.preload is not None:
+        table.add(preload_key, _number(curve.preload))
 
 
 def _number(value: float) -> Float:

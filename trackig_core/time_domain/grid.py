@@ -22,6 +22,8 @@ SI units. Source: the paper (see :mod:`trackig_core.track.design`), sections on 
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.time_domain.decimation import RECORD_RATE
 from trackig_core.track.design import ELEMENTS_PER_BAY as ELEMENTS_PER_BAY
@@ -50,6 +52,10 @@ MEMORY_LIMIT = 2e9
 
 DURATION_LIMIT = 60.0
 """Seconds that a run may take; one that would take longer is refused."""
+
+LEAST_STATIC_SHARE = 0.2
+"""Part of its static stiffness that the paper's damping recursion must leave a spring [-]; at the paper's
+time step it does with loss factors up to one."""
 
 STEP_RATE = 4e8
 """Rail elements advanced by one time step per second [1/s]: a modest core of 2020, so that estimates err
@@ -158,6 +164,33 @@ def stable_time_step(design: Track, dx: float) -> float:
     if boot is not None and track.block_mass is not None:
         rows.append((2 * pad + boot.instantaneous) / track.block_mass)
     return 2 / math.sqrt(max(rows))
+
+
+def paper_memory_order(design: Track, time_step: float) -> int:
+    """Return the order of the damping recursion of a run like the paper's: 1, the paper's, wherever it holds.
+
+    The paper's sums of exponentials exceed their integrals by half a step. Springs answer a constant strain
+    by so much less than their static stiffness: by less than none where the loss factor is above one, so that
+    a run would creep away without bound.
+
+    Parameters
+    ----------
+    design : TrackDesign or TrackModel
+        The track.
+    time_step : float
+        Time step [s].
+
+    Returns
+    -------
+    int
+        1, or 2 where less than :data:`LEAST_STATIC_SHARE` of a static stiffness would be left.
+    """
+    for law in track_model(design).springs:
+        stiffness, decay, gain = law.recursion(time_step, 1)
+        left = stiffness - float(np.sum(gain / (1 - decay)))
+        if left < LEAST_STATIC_SHARE * (law.instantaneous - sum(law.strengths)):
+            return 2
+    return 1
 
 
 def fewest_bays(design: Track) -> int:

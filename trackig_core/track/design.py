@@ -42,6 +42,9 @@ longer, and a spectrum show fringes as narrow as its inverse."""
 ELEMENTS_PER_BAY = 3
 """Rail elements between supports [-]; the paper. Axles stand on elements."""
 
+STATIC_STIFFNESSES = ("pad_static_stiffness", "boot_static_stiffness")
+"""Fields on which nothing depends but the static response."""
+
 DEFAULT_STEP = 1e-4
 """Step of roughness that squeezes the contact spring [m]; insertion gain does not depend on it."""
 
@@ -219,7 +222,7 @@ class TrackDesign:
             self._check_spring("boot")
         elif self.boot_static_stiffness is not None:
             raise DesignError("boot_static_stiffness", self.boot_static_stiffness, "None: there is no boot")
-        for field in ("pad_static_stiffness", "boot_static_stiffness"):
+        for field in STATIC_STIFFNESSES:
             if getattr(self, field) is not None:
                 self._check(field)
         self._check_surroundings()
@@ -278,10 +281,16 @@ class TrackDesign:
 
     @property
     def without_statics(self) -> "TrackDesign":
-        """The design without its static stiffnesses, on which nothing depends but its static response."""
-        if self.pad_static_stiffness is None and self.boot_static_stiffness is None:
+        """The design without its static stiffnesses and preloads, on which no vibration depends."""
+        changes: dict[str, Any] = dict.fromkeys(STATIC_STIFFNESSES)
+        changes |= {
+            name: curve.without_preload
+            for name, curve in measured_curves(self).items()
+            if isinstance(curve, StiffnessCurve)
+        }
+        if all(getattr(self, name) is value for name, value in changes.items()):
             return self
-        return dataclasses.replace(self, pad_static_stiffness=None, boot_static_stiffness=None)
+        return dataclasses.replace(self, **changes)
 
     @property
     def one_unsprung_wheel(self) -> bool:

@@ -10,7 +10,7 @@ names the row. Tables that were pasted or saved are read by :mod:`trackig_core.t
 import math
 import numbers
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,8 @@ COLUMNS = {
 }
 """Lowest and highest value, and unit, of each column."""
 
+PRELOAD = (0.0, 1e6, "N")
+"""Lowest and highest static load under which a pad or boot is measured, and its unit."""
 
 NOMINAL_DEVIATION = 0.02
 """Relative distance between nominal and exact mid-band frequencies that is not extrapolation [-]."""
@@ -93,18 +95,29 @@ class StiffnessCurve:
     points : iterable of (float, float, float)
         Rows of frequency [Hz], ascending, dynamic stiffness (the real part of the complex stiffness)
         [N/m] and loss factor [-]; two or more.
+    preload : float or None
+        Static load under which it was measured [N], as EN 17495 has it reported; None if it is not stated.
+        It says what the points hold for, and no figure depends on it.
 
     Raises
     ------
     MeasurementError
-        If a row is out of order, or not made of numbers within their ranges.
+        If a row is out of order, or row or preload is not made of numbers within their ranges.
     """
 
     points: tuple[tuple[float, float, float], ...]
+    preload: float | None = None
 
     def __post_init__(self) -> None:
-        """Check every row once."""
+        """Check every row and the preload once."""
         object.__setattr__(self, "points", _checked(self.points, tuple(COLUMNS)))
+        if self.preload is not None:
+            object.__setattr__(self, "preload", _number("preload", self.preload, PRELOAD))
+
+    @property
+    def without_preload(self) -> "StiffnessCurve":
+        """The same points without the preload, on which no figure depends."""
+        return self if self.preload is None else replace(self, preload=None)
 
     def stiffness(self, frequency: ArrayLike) -> RealArray:
         """Return the dynamic stiffness at given frequencies [Hz]; same shape, [N/m]."""
@@ -149,7 +162,10 @@ def _checked(points: Iterable[Iterable[object]], columns: Sequence[str]) -> tupl
     for number, row in enumerate(rows, start=1):
         if len(row) != len(columns):
             raise MeasurementError(f"{len(row)} values: give {', '.join(columns)}", number)
-        values = tuple(_number(*pair, number) for pair in zip(columns, row, strict=True))
+        values = tuple(
+            _number(column, value, COLUMNS[column], number)
+            for column, value in zip(columns, row, strict=True)
+        )
         if verified and values[0] <= verified[-1][0]:
             before = verified[-1][0]
             raise MeasurementError(
@@ -161,8 +177,8 @@ def _checked(points: Iterable[Iterable[object]], columns: Sequence[str]) -> tupl
     return tuple(verified)
 
 
-def _number(column: str, value: object, row: int) -> float:
-    low, high, unit = COLUMNS[column]
+def _number(what: str, value: object, bounds: tuple[float, float, str], row: int | None = None) -> float:
+    low, high, unit = bounds
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         try:
             number = float(value)
@@ -171,4 +187,4 @@ def _number(column: str, value: object, row: int) -> float:
         if math.isfinite(number) and low <= number <= high:
             return number
     allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
-    raise MeasurementError(f"{column} = {brief(value, 40)}: give {allowed}", row)
+    raise MeasurementError(f"{what} = {brief(value, 40)}: give {allowed}", row)

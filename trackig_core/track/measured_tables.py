@@ -1,4 +1,4 @@
-"""Measured stiffness from the table of a test house: which columns, in which units, and what to ask.
+"""Measured stiffness from the table of a test house: columns, units, what to ask, and the preload.
 
 Read are frequency, stiffness (the real part of the complex stiffness, or its magnitude if the header says so)
 and loss factor, or real and imaginary part. A unit of stiffness that is mistaken costs a factor of 1000 and
@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from trackig_core.names import brief
-from trackig_core.table_text import Cell, TableError
+from trackig_core.table_text import Cell, TableError, decoded
 from trackig_core.track.measured_curves import COLUMNS, MeasurementError, StiffnessCurve
+from trackig_core.track.stated_preload import is_preload, one_preload, preloads_of, take_preloads
 from trackig_core.typed_numbers import Unit, find_unit
 from trackig_core.typed_tables import Column, read_table
 
@@ -70,13 +71,14 @@ class _Columns(NamedTuple):
 
 
 def read_stiffness(data: str | bytes, unit: str | None = None) -> StiffnessReading:
-    """Read a table of frequency, stiffness and loss factor, or of real and imaginary part.
+    """Read a table of frequency, stiffness and loss factor, or of real and imaginary part; and its preload.
 
     Parameters
     ----------
     data : str or bytes
         What was pasted, or what the file holds; headers say what the columns are, else they are frequency,
-        stiffness, loss factor in this order.
+        stiffness, loss factor in this order. A preload stands in a column, a header, a comment or a line of
+        its own, such as ``preload: 30 kN``.
     unit : str, optional
         Unit of the stiffness, such as ``"N/mm"``, whatever the table says: the answer to a question.
 
@@ -91,19 +93,25 @@ def read_stiffness(data: str | bytes, unit: str | None = None) -> StiffnessReadi
         If the table cannot be used; the message names line and column.
     """
     try:
-        table = read_table(data, is_axis=lambda frequency: frequency >= COLUMNS["frequency"][0])
-        columns = _columns(table.columns)
+        text, in_lines, remarks = take_preloads(decoded(data))
+        table = read_table(text, is_axis=lambda frequency: frequency >= COLUMNS["frequency"][0])
+        loads = [each for each in table.columns if is_preload(each)]
+        in_columns = (stated for each in loads for stated in preloads_of(each))
+        preload = one_preload([*in_lines, *in_columns])
+        columns = _columns([each for each in table.columns if each not in loads])
         figures = [each.value for each in columns.stiffness.cells if each.value is not None]
         stated = columns.stiffness.unit
         chosen = unit or (stated.name if stated is not None else (_usual_units(figures) or UNITS)[-1])
         points, skipped = _points(columns, chosen, is_answer=unit is not None)
     except TableError as error:
         raise MeasurementError(str(error)) from None
-    notes = [*table.notes, *skipped]
-    notes += [f"{each.words} is not read" for each in table.columns if each not in columns]
+    notes = [*table.notes, *remarks, *skipped]
+    notes += [f"{each.words} is not read" for each in table.columns if each not in (*columns, *loads)]
     is_assumed = unit is None and stated is None
     if is_assumed:
         notes.append(f"no unit of stiffness is given: {chosen} is assumed")
+    if preload is not None and preload.note:
+        notes.append(preload.note)
     question, suggestion = ("", "") if unit else _question(list(points.values()), figures, chosen, is_assumed)
     try:
         curve = StiffnessCurve(tuple(points.values()))
@@ -111,6 +119,8 @@ def read_stiffness(data: str | bytes, unit: str | None = None) -> StiffnessReadi
         where = "" if error.row is None else f"{list(points)[error.row - 1]}: "
         asked = f"; {question}" if suggestion else ""
         raise MeasurementError(f"{where}{error.message}{asked}") from None
+    if preload is not None:
+        curve = preload.put_on(curve)
     return StiffnessReading(curve, chosen, is_assumed, question, suggestion, tuple(notes))
 
 

@@ -178,7 +178,7 @@ def relaxation(
         The fitted law.
     """
     if isinstance(stiffness, StiffnessCurve):
-        return _fit_stiffness(stiffness)
+        return _fit_stiffness(stiffness.without_preload)
     measured = isinstance(loss_factor, LossFactorCurve)
     law = fit_loss_factor(loss_factor) if measured else constant_loss_factor(loss_factor)
     return _scaled(law, stiffness, frequency)

@@ -227,6 +227,7 @@ source = "data sheet"
 [[pad]]
 name = "Measured"
 stiffness_measured = [[10.0, 6e7, 0.1], [100.0, 8e7, 0.15], [1000.0, 1e8, 0.2]]
+preload_N = 30e3
 static_stiffness_N_per_m = 5e7
 source = "test house"
 
@@ -249,6 +250,7 @@ def test_measured_components_are_chosen_with_their_curves_and_kept(specification
     assert {*table["pad"]} == {"Plain", "Measured"}
     assert {*table["boot"]} == {"Damping measured"}
     assert {*table["rail"]} == {"Own", "60"}
+    assert choices["pad"][1]["pad_stiffness"]["preload"] == 30e3
     for row in range(0, 48, 7):
         design, chosen = found.many.design(row), {kind: table[kind][row] for kind in choices}
         expected = stated.replace(block_mass=design.block_mass)
@@ -273,6 +275,8 @@ def test_what_has_no_single_value_is_no_objective(specification):
     pads = [each.choice(BLOCK) for each in CATALOGUE.of_kind("pad").values()]
     with pytest.raises(ValueError, match="pad_stiffness: a component that is measured over frequency"):
         find(BLOCK, specification, choices={"pad": pads}, objectives=("margin", "pad_stiffness"))
+    with pytest.raises(ValueError, match=r"pad_stiffness .*: give points and preload"):
+        find(BLOCK, specification, choices={"pad_stiffness": [{"rows": []}]})
     with pytest.raises(ValueError, match="rail 'Wood': give one of 60, "):
         find(BLOCK, specification, choices={"rail": ["Wood"]})
     with pytest.raises(ValueError, match=r"rail .*: give name, mass_per_metre, bending_stiffness"):

@@ -31,6 +31,7 @@ source = "report 12/345, EN 17495"
 [[pad]]
 name = "Measured pad"
 stiffness_measured = [[1.0, 310.4e6, 0.151], [10.0, 605.7e6, 0.151], [30.0, 671.0e6, 0.151]]
+preload_N = 30e3
 static_stiffness_N_per_m = 277.6e6
 source = "report 7"
 
@@ -76,6 +77,7 @@ def test_components_are_fitted():
     design = ACME.of_kind("pad")["Measured pad"].fitted_to(BLOCK)
     assert isinstance(design.pad_stiffness, tig.StiffnessCurve)
     assert (design.pad_loss_factor, design.pad_static_stiffness) == (None, 277.6e6)
+    assert design.pad_stiffness.preload == 30e3
     back = bundled_catalogue().of_kind("pad")["Booted block pad, low mass"].fitted_to(design)
     assert back == BLOCK  # what the other pad had measured leaves with it
 
@@ -116,6 +118,16 @@ def test_a_single_stage_track_takes_no_block_or_boot(kind, name):
         ("loss_factor = 0.12\n", "", r"pad\[0\]\.loss_factor: it is missing"),
         ("stiffness_N_per_m = 60e6\n", "", r"pad\[0\]\.stiffness_N_per_m: it is missing"),
         ("[10.0, 605.7e6, 0.151]", "[1.0, 605.7e6, 0.151]", r"pad\[1\]\.stiffness_measured: row 2"),
+        (
+            "preload_N = 30e3",
+            "preload_N = nan",
+            r"pad\[1\]\.preload_N: preload = nan: give a number from 0 to",
+        ),
+        (
+            "loss_factor = 0.12",
+            "loss_factor = 0.12\npreload_N = 30e3",
+            r"pad\[0\]\.preload_N: remove it, or give",
+        ),
         (
             "static_stiffness_N_per_m = 277.6e6",
             "loss_factor = 0.2",

@@ -1,6 +1,7 @@
 """Study files: what is saved is what is opened, and nothing in a file can do harm."""
 
 import contextlib
+import dataclasses
 import pickle
 import time
 import tomllib
@@ -13,7 +14,7 @@ import trackig_core as tig
 from trackig_core.names import LONGEST_NAME, is_name
 from trackig_core.study.toml_format import LONGEST_LINE, MOST_BYTES
 from trackig_core.track.design import RANGES
-from trackig_core.track.measured_curves import COLUMNS
+from trackig_core.track.measured_curves import COLUMNS, PRELOAD
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 MEASURED = tig.StiffnessCurve([(5, 22e6, 0.18), (50, 28e6, 0.2), (500, 38e6, 0.2)])
@@ -45,6 +46,13 @@ def curves(kind, columns):
     return rows.map(sorted).map(kind)
 
 
+def preloaded(measured):
+    """Curves with the static load under which they were measured."""
+    return st.builds(
+        lambda curve, load: dataclasses.replace(curve, preload=load), measured, within(*PRELOAD[:2])
+    )
+
+
 numbers = {name: within(low, high) for name, (low, high, _) in RANGES.items()}
 printable = st.characters(exclude_categories=["C", "Z"], include_characters=" ")
 names = st.text(printable, min_size=1, max_size=LONGEST_NAME).filter(is_name)
@@ -60,6 +68,7 @@ def springs(part):
     return st.one_of(
         st.tuples(numbers[f"{part}_stiffness"], st.one_of(numbers[f"{part}_loss_factor"], loss)),
         st.tuples(curves(tig.StiffnessCurve, tuple(COLUMNS)), st.none()),
+        st.tuples(preloaded(curves(tig.StiffnessCurve, tuple(COLUMNS))), st.none()),
     ).map(lambda pair: {f"{part}_stiffness": pair[0], f"{part}_loss_factor": pair[1]})
 
 
@@ -208,6 +217,17 @@ def changed(old, new):
         (
             changed("boot_stiffness_measured", "boot_stiffness_N_per_m = 2e7\nboot_stiffness_measured"),
             "design.boot_stiffness_measured: give this or boot_stiffness_N_per_m, not both",
+        ),
+        *(
+            (
+                changed("boot_stiffness_measured", f"boot_preload_N = {value}\nboot_stiffness_measured"),
+                f"design.boot_preload_N: preload = {said}: give a number from 0 to 1e+06 N",
+            )
+            for value, said in (("nan", "nan"), ("-1.0", "-1.0"), ("1e300", "1e+300"), ("true", "True"))
+        ),
+        (
+            changed("block_mass_kg", "pad_preload_N = 30e3\nblock_mass_kg"),
+            "design.pad_preload_N: remove it, or give pad_stiffness_measured",
         ),
         (changed("block_mass_kg = 45.0\n", ""), "design.block_mass_kg: it is missing: give a value too"),
         (changed('name = "60"', 'name = "6\\u0000"'), "design.rail.name: "),

@@ -91,3 +91,9 @@ def test_a_design_without_statics_differs_in_nothing_else():
     stated = plain.replace(pad_static_stiffness=80e6, boot_static_stiffness=12e6, speed=30.0)
     assert stated.without_statics == plain.replace(speed=30.0)
     assert plain.without_statics is plain
+    curve = tig.StiffnessCurve([(5, 22e6, 0.18), (500, 38e6, 0.2)])
+    measured = plain.replace(boot_stiffness=curve, boot_loss_factor=None)
+    assert measured.without_statics is measured
+    preloaded = measured.replace(boot_stiffness=tig.StiffnessCurve(curve.points, preload=30e3))
+    assert preloaded != measured
+    assert preloaded.without_statics == measured

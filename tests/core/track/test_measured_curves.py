@@ -52,6 +52,25 @@ def test_a_stiffness_table_has_three_columns():
         tig.StiffnessCurve([(5, 28e6, 0.1), (20, 28, 0.1)])
 
 
+@pytest.mark.parametrize("preload", [NAN, float("inf"), -1.0, 1.1e6, 10**400, True, "30 kN"])
+def test_a_preload_is_a_load_that_a_support_carries(preload):
+    points = [(5, 28e6, 0.1), (20, 28e6, 0.1)]
+    with pytest.raises(
+        tig.MeasurementError, match=r"preload = .*: give a number from 0 to 1e\+06 N"
+    ) as caught:
+        tig.StiffnessCurve(points, preload)
+    assert len(str(caught.value)) < 300
+    assert tig.StiffnessCurve(points, 30_000).preload == 30e3
+
+
+def test_no_law_is_fitted_again_for_another_preload():
+    points = [(5, 28e6, 0.11), (20, 29e6, 0.12), (500, 38e6, 0.13)]
+    plain, loaded = (tig.StiffnessCurve(points, preload) for preload in (None, 30e3))
+    assert plain != loaded
+    assert loaded.without_preload == plain
+    assert relaxation(loaded, None) is relaxation(plain, None)
+
+
 def test_between_points_values_are_straight_over_the_logarithm_of_frequency():
     curve = tig.LossFactorCurve([(10, 0.1), (100, 0.3), (1000, 0.2)])
     assert curve.loss_factor([1, 10, 10**1.5, 100, 5000]) == pytest.approx([0.1, 0.1, 0.2, 0.3, 0.2])

@@ -109,6 +109,83 @@ def test_an_answer_must_be_a_unit_of_stiffness():
         read_stiffness("10 2000 0.2\n20 3000 0.2", unit="kg")
 
 
+TABLE = "f [Hz];k [kN/mm];eta\n10;20;0.1\n20;22;0.1"
+POINTS = ((10.0, 20e6, 0.1), (20.0, 22e6, 0.1))
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        f"# preload: 30 kN\n{TABLE}",
+        f"Vorlast: 30,0 kN\n{TABLE}",
+        f"Vorlast;30;kN\n{TABLE}",
+        f"Preload [kN];30\n{TABLE}",
+        f"Pad 7, static preload F0 = 30 000 N, 23 °C\n{TABLE}",
+        "f [Hz];k [kN/mm] at preload 30 kN;eta\n10;20;0.1\n20;22;0.1",
+        "f [Hz] k [kN/mm] eta\npreload 30 kN\n10 20 0.1\n20 22 0.1",
+        "Précharge [N];f [Hz];k [kN/mm];eta\n3e4;10;20;0.1\n;20;22;0.1",
+        "f [Hz];k [kN/mm];eta;preload\n10;20;0.1;30 kN\n20;22;0.1;30 kN",
+        "f [Hz];k [kN/mm];eta;remark\n10;20;0.1;preload 30 kN\n20;22;0.1;preload 30 kN",
+        "f [Hz]\t10\t20\nk [kN/mm]\t20\t22\nη\t0.1\t0.1\npreload [kN]\t30\t30",
+    ],
+)
+def test_the_preload_is_kept_wherever_it_stands(data):
+    reading = read_stiffness(data)
+    assert (reading.curve.points, reading.curve.preload) == (POINTS, 30e3)
+    assert (reading.unit, reading.question) == ("kN/mm", "")
+    assert [each for each in reading.notes if "remark" not in each] == []
+
+
+@pytest.mark.parametrize(
+    "data", [f"# preload: 30\n{TABLE}", f"preload;f;k [kN/mm];eta\n{'30;10;20;0.1'}\n;20;22;0.1"]
+)
+def test_a_preload_without_a_unit_is_taken_to_be_in_kilonewtons_and_that_is_said(data):
+    reading = read_stiffness(data)
+    assert reading.curve.preload == 30e3
+    assert "no unit of preload is given: kN is assumed" in reading.notes
+    assert read_stiffness(data.replace("30", "30000", 1)).curve.preload == 30e3
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["preload 20 to 40 kN", "preload 0.03 N/mm2", "preload 1,200 N", "preload 30 t", "preload 30 tons"],
+)
+def test_a_preload_that_is_not_certain_is_left_out_with_a_word(line):
+    reading = read_stiffness(f"# {line}\n{TABLE}")
+    assert (reading.curve.points, reading.curve.preload) == (POINTS, None)
+    assert reading.notes == ("line 1: the preload is not read; write it as in 'preload: 30 kN'",)
+    reading = read_stiffness(f"{line}\n{TABLE}")
+    assert (reading.curve.points, reading.curve.preload) == (POINTS, None)
+    assert "line 1 is not read" in reading.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (
+            f"# preload: 30 kN\n# Vorlast: 40 kN\n{TABLE}",
+            "preloads of 30 kN (line 1), 40 kN (line 2): a curve is of one",
+        ),
+        (
+            "f;k [kN/mm] at preload 20 kN;k [kN/mm] at preload 40 kN;eta\n10;20;30;.1",
+            "preloads of 20 kN (line 1)",
+        ),
+        ("preload [kN];f;k [kN/mm];eta\n20;10;20;.1\n40;10;30;.1", "40 kN (column 1 ('preload [kN]'))"),
+        (
+            "preload [kN];f;k [kN/mm];eta\n" + "\n".join(f"{n};{n};20;.1" for n in range(1, 9)),
+            "4 kN (column 1 ('preload [kN]')) and 4 more",
+        ),
+        (f"preload: -30 kN\n{TABLE}", "line 1: preload = -30000.0: give a number from 0 to 1e+06 N"),
+        (f"preload: 1e300 kN\n{TABLE}", "line 1: preload = 1e+303"),
+    ],
+)
+def test_several_preloads_or_one_that_no_support_has_are_refused(data, words):
+    with pytest.raises(tig.MeasurementError) as caught:
+        read_stiffness(data)
+    assert words in str(caught.value)
+    assert len(str(caught.value)) < 300
+
+
 def test_bands_that_nobody_measured_are_named():
     curve = tig.StiffnessCurve(PAD)
     beyond = tig.BAND_LABELS[tig.BAND_LABELS.index("31.5") :]

@@ -106,3 +106,11 @@ def test_an_answer_that_was_opened_and_not_asked_again_says_so(summary):
     text = report(summary, (forged,))
     assert "<script>" not in text
     assert "ask again on the tab Decide" in text
+
+
+def test_what_was_measured_of_the_design_is_named_in_what_was_asked():
+    curve = tig.StiffnessCurve([(1, 310.4e6, 0.151), (30, 671e6, 0.151)], preload=30e3)
+    design = BLOCK.replace(pad_stiffness=curve, pad_loss_factor=None)
+    question = tig.decide.Question("range", design, specification=LIMITS)
+    _, lines = question_lines(tig.decide.Answer(question, "Nothing complies.", "0" * 8, {}))
+    assert "pad stiffness measured at 2 frequencies, 1 to 30 Hz, preload 30 kN, rail 60." in lines[0]

@@ -53,6 +53,29 @@ def test_bands_that_fail_are_marked(sheet):
     assert text.count('<td class="fails">') == 2 * int(result.verdict.fails.sum()) > 0
 
 
+@pytest.mark.parametrize(
+    ("bands", "specification", "says"),
+    [
+        ("one-third-octave", LIMIT, "crosses mark levels above it."),
+        ("octave", LIMIT, "allowed in one-third octaves from 5 to 500 Hz, in which the design is judged."),
+        ("wide one-third-octave", LIMIT, "allowed in one-third octaves from 5 to 500 Hz"),
+        ("one-third-octave", tig.Specification((), rail_deflection_limit=2.5e-3), ""),
+    ],
+)
+def test_crosses_are_named_where_they_are_drawn_and_a_line_where_there_is_one(
+    session, bands, specification, says
+):
+    session.show("booted-block-low-mass")
+    session.assessment.specification = specification
+    session.definition.bands = bands
+    result = session.assessment.current
+    heading = Heading.of(session.snapshot.study(), [result], DAY)
+    text = data_sheet(result, heading, specification)
+    assert says in text
+    assert ("crosses mark" in text) == (specification is LIMIT and bands == "one-third-octave")
+    assert ("stepped line" in text) == bool(says)
+
+
 def test_what_a_single_stage_track_lacks_is_left_out(session):
     session.show("slab-track")
     result = session.assessment.current

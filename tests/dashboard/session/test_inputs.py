@@ -226,7 +226,7 @@ def test_what_people_type_is_read(name, given, value):
         ("wheel_mass", 1501, "give 200 to 1500 kg"),
         ("wheel_mass", True, "give 200 to 1500 kg"),
         ("pad_stiffness", "1,200", "may be 1200 or 1.200"),
-        ("pad_loss_factor", "0.6", "give 0.01 to 0.5"),
+        ("pad_loss_factor", "2.1", "give 0.01 to 2"),
         ("two_stage", 1, "choose one of what is offered"),
         ("rail", "no rail", "choose one of what is offered"),
     ],

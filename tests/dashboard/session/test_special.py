@@ -79,6 +79,19 @@ def test_undo_brings_back_what_was_special(session):
     assert session.inputs.to_design() == BLOCK.replace(boot_stiffness=25e6)
 
 
+def test_a_loss_factor_is_taken_up_to_two_and_the_slider_follows(inputs):
+    inputs.take_given({"boot_loss_factor": "1.8"})
+    assert inputs.to_design().boot_loss_factor == 1.8
+    assert (inputs.to_shown()["boot_loss_factor"], inputs.refused) == (1.8, {})
+    inputs.take_given({"boot_loss_factor": "2"})
+    assert inputs.to_design().boot_loss_factor == 2.0
+    inputs.take_given({"boot_loss_factor": "2.1"})
+    assert inputs.to_design().boot_loss_factor == 2.0
+    assert inputs.refused == {"boot_loss_factor": "give 0.01 to 2"}
+    inputs.take_given({"boot_loss_factor": "0.3"})
+    assert (inputs.to_design().boot_loss_factor, inputs.special, inputs.refused) == (0.3, {}, {})
+
+
 def test_a_number_beyond_the_slider_extends_it_and_stays_within_reach(inputs):
     taken(inputs, boot_stiffness=300e6)
     assert inputs.to_shown()["boot_stiffness"] == 300

@@ -131,5 +131,8 @@ def test_words_say_what_a_design_has():
     metro = BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension, axle_positions=(0.0, 2.1))
     assert surroundings.text(metro, "suspension") == "metro (generic)"
     assert surroundings.text(metro, "axle_positions") == "at 0, 2.1 m, independent roughness"
-    assert surroundings.text(OWN, "ground") == "own values"
+    assert surroundings.text(OWN, "ground") == "own: 123 kN/mm, 45.6 kN s/m, 7.5 kg"
+    assert surroundings.text(OWN, "suspension") == "own: primary 1.1 kN/mm, 3 kN s/m; bogie 512.25 kg"
+    whole = OWN.replace(suspension=tig.Suspension(1.1e6, 3e3, 512.25, 0.25e6, 15e3, 4000.0))
+    assert surroundings.text(whole, "suspension").endswith("; secondary 0.25 kN/mm, 15 kN s/m; body 4000 kg")
     assert surroundings.text(OWN, "axle_positions").endswith("same roughness at 79.992 km/h")

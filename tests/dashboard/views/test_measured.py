@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
+from dashboard.compute.workers import AT_REST, key_of
 from dashboard.session.inputs import values_of
 from dashboard.session.measuring import Measuring
+from dashboard.session.special import input_text
 from dashboard.views.measured import Measured
+from dashboard.views.sidebar import chips
 
 TABLES = Path(__file__).parents[2] / "data" / "measured_stiffness"
 FINITE_ELEMENT, PAD, POLYURETHANE = (
@@ -94,6 +97,25 @@ def test_a_used_table_is_saved_and_opened_with_the_study(editor, summary):
     other = type(editor.session)(summary)
     other.snapshot.open(editor.session.snapshot.study().to_toml())
     assert other.inputs.to_design() == design_of(editor)
+
+
+def test_the_preload_is_said_kept_and_named_wherever_the_curve_is(editor, summary):
+    editor.take(b"# EN 17495, preload: 30 kN\n" + PAD)
+    assert "Measured at 3 frequencies, 1 to 30 Hz, preload 30 kN." in editor.words.object
+    editor.use.clicks += 1
+    assert "preload 30 kN" in editor.words.object
+    design = design_of(editor)
+    assert design.pad_stiffness.preload == 30e3
+    assert input_text(design, "pad_stiffness") == "measured at 3 frequencies, 1 to 30 Hz, preload 30 kN"
+    assert chips(editor.session.inputs)["pad_stiffness"] == input_text(design, "pad_stiffness")
+    other = type(editor.session)(summary)
+    other.snapshot.open(editor.session.snapshot.study().to_toml())
+    assert other.inputs.to_design() == design
+    # another preload is another design, which is not solved again
+    editor.take(b"# preload: 40 kN\n" + PAD)
+    editor.use.clicks += 1
+    assert design_of(editor).pad_stiffness.preload == 40e3
+    assert key_of(design_of(editor), AT_REST) == key_of(design, AT_REST)
 
 
 def test_an_assumed_unit_is_named(editor):

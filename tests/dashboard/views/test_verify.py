@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
-from dashboard import theme
+from dashboard import formats, theme
 from dashboard.compute import checker as checker_module
 from dashboard.compute.checker import VerificationRunner, check
 from dashboard.figures.verification import (
@@ -147,6 +147,19 @@ def test_the_peer_stands_beside_the_twin(view, preset):
     np.testing.assert_allclose(at_peer[:10], 1e12 * np.abs(peer.euler)[:10], rtol=0.01)
     said = float(re.search(r"within ([\d.]+) dB", view.words["peer"].object).group(1))
     assert 0 < said < 0.07
+
+
+@pytest.mark.parametrize("loss_factor", [1.05, 2.0])
+def test_a_memory_that_does_not_hold_is_not_drawn(outcome, view, loss_factor):
+    design = tig.PRESETS["booted-sleeper"].replace(boot_loss_factor=loss_factor)
+    outcome.verified = check(SolutionSummary.of(tig.solve(design), 0.2))
+    steps, ends = view.time_step.errors.data, view.time_step.model.y_range
+    assert np.isnan(steps["first"]).any()
+    np.testing.assert_array_equal(np.isnan(steps["one"]), [loss_factor == 2.0] * steps["one"].size)
+    assert 0 < ends.start < steps["second"].min() < steps["second"].max() < ends.end
+    theory, grid = outcome.verified.theory, outcome.verified.summary.solution.grid
+    error = np.interp(grid.dt, theory.time_steps, theory.second_order_errors)
+    assert f"{formats.difference_text(error)} at this run's time step" in view.words["convergence"].object
 
 
 def test_convergence_is_drawn_with_its_slopes(outcome, view, summary):
