@@ -226,6 +226,7 @@ PLAYER_CSS = """
 }
 .noUi-target { background: color-mix(in srgb, var(--panel-on-background-color) 20%, transparent); }
 .noUi-handle { border-color: currentColor; }
+label[for] { position: absolute; clip-path: inset(50%); white-space: nowrap; }
 """
 """The controls beside a moving drawing, which run in the browser alone."""
 

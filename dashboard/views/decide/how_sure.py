@@ -12,8 +12,8 @@ from dashboard.fields import FIELDS
 from dashboard.figures.decide import PercentileFigure
 from dashboard.persistence.samples import SamplesError, read_samples
 from dashboard.views.components import bokeh_pane, caption, panel
-from dashboard.views.decide.asked import BOX, BUTTON, Asked
-from dashboard.views.decide.inputs import choice, factor_label, is_number, percent_box
+from dashboard.views.decide.asked import BUTTON, Asked
+from dashboard.views.decide.inputs import choice, factor_label, is_number, percent_box, seed_box
 
 USUAL_TOLERANCES = {
     "pad_stiffness": 15.0,
@@ -46,7 +46,7 @@ class HowSure(Asked):
             value=10_000,
             width=120,
         )
-        self.seed = pmui.IntInput(label="Seed", value=0, start=0, size="small", width=110, **BOX)
+        self.seed = seed_box()
         self.percentiles = PercentileFigure()
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
         self.button.label = "How sure?"
@@ -104,13 +104,13 @@ class HowSure(Asked):
         design, kind = self.assessment.current.design, self.shape.value
         half = 1.0 if kind == "uniform" else 0.5
         given = {
-            name: {kind: half * box.value / 100}
+            name: {kind: half * box.number / 100}
             for name, box in self.tolerances.items()
-            if box.value and is_number(design, name) and name not in self._specimens
+            if is_number(design, name) and name not in self._specimens and box.number
         }
         if not given and not self._specimens:
             raise ValueError("Give one of the tolerances: with none, nothing scatters.")
-        settings = {"tolerances": given, "samples": self.samples.value, "seed": self.seed.value or 0}
+        settings = {"tolerances": given, "samples": self.samples.value, "seed": self.seed.number}
         return settings | ({"production": self._specimens} if self._specimens else {})
 
     def show(self, result):

@@ -8,8 +8,8 @@ from dashboard.fields import FIELDS
 from dashboard.figures.decide import ChangeFigure, TornadoFigure
 from dashboard.session.answers import FIGURE_WORDS
 from dashboard.views.components import caption, panel
-from dashboard.views.decide.asked import BOX, Asked, beside
-from dashboard.views.decide.inputs import choice, percent_box
+from dashboard.views.decide.asked import Asked, beside
+from dashboard.views.decide.inputs import MOST_CHANGE, NumberBox, choice, percent_box
 from trackig_core.track.fields import SLIDER_RANGES
 
 
@@ -20,11 +20,9 @@ class WhatMatters(Asked):
 
     def __init__(self, snapshot, exchange):
         super().__init__(snapshot, exchange)
-        self.change = pmui.FloatInput(
-            label="Change, ± %", value=10.0, start=0.1, end=90.0, step=1.0, size="small", width=130, **BOX
-        )
+        self.change = NumberBox("Change, ± %", 10.0, "%", most=MOST_CHANGE, width=130)
         self.one_by_one = pmui.Checkbox(label="A change for each field", size="small", margin=(8, 12, 0, 0))
-        self.changes_of = {name: percent_box(name, 10.0, 0.1) for name in SLIDER_RANGES}
+        self.changes_of = {name: percent_box(name, 10.0) for name in SLIDER_RANGES}
         self.boxes = pn.FlexBox(*self.changes_of.values(), visible=False, margin=(0, 12))
         self.figure = choice(
             label="Figure",
@@ -49,13 +47,14 @@ class WhatMatters(Asked):
     def settings(self):
         """Return what is asked about the current design."""
         design = self.assessment.current.design
-        return {
-            "changes": {
-                name: box.value / 100
-                for name, box in self.changes_of.items()
-                if box.value and getattr(design, name) is not None
-            }
+        changes = {
+            name: box.number / 100
+            for name, box in self.changes_of.items()
+            if getattr(design, name) is not None and box.number
         }
+        if not changes:
+            raise ValueError("Give one change or more: with none, nothing changes.")
+        return {"changes": changes}
 
     def show(self, result):
         """Draw the changes."""
