@@ -574,9 +574,11 @@ class CloudFigure:
         self.fields.xaxis.ticker = FixedTicker(ticks=axis)
         self.fields.xaxis.major_label_overrides = dict(zip(axis, _staggered(labels), strict=True))
         self.limit.data = BANDS | {"limit": limit}
-        places = [int(np.flatnonzero(rows == row)[0]) for row in kept]
+        self._select([int(np.flatnonzero(rows == row)[0]) for row in kept])
+
+    def _select(self, places):
+        """Select designs by their places; a document that holds changes back does not tell of them."""
         self.designs.selected.indices = places
-        # drawn anew even if they stand in the same places
         self._selected(None, None, places)
 
     def _chosen_rows(self):
@@ -597,7 +599,7 @@ class CloudFigure:
         else:
             place = 0 if across + up > 0 else len(order) - 1
         others = [each for each in chosen if each != order[place]] if far else []
-        self.designs.selected.indices = [order[place], *others]
+        self._select([order[place], *others])
 
     def _selected(self, _attribute, _old, indices):
         """Draw insertion gain of what is selected, of the front if nothing is."""

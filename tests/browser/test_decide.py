@@ -129,7 +129,7 @@ def test_a_box_drawn_by_mouse_brushes_all_pictures_of_a_search(open_dashboard):
     open_tab(page, "Decide")
     page.get_by_role("tab", name="Search", exact=True).click()
     page.get_by_role("button", name="Find designs").click()
-    expect(page.get_by_text("of them no other beats")).to_be_visible()
+    expect(page.get_by_text("and no other beats")).to_be_visible()
     # a search that grows draws its pictures anew
     expect(page.get_by_role("button", name="Stop", exact=True)).to_have_count(0)
     take = page.get_by_role("button", name="Take to the sliders")

@@ -150,7 +150,7 @@ def test_all_four_questions_are_asked_by_keys_alone(open_dashboard):
     page.keyboard.press("Space")
     go(page, "^Find designs$", "button")
     page.keyboard.press("Enter")
-    answer(page, "of them no other beats")
+    answer(page, "and no other beats")
     expect(page.get_by_role("button", name="Stop", exact=True)).to_have_count(0)
     wait_until_drawn(page, "objectives_figure")
     go(page, "^Designs by their objectives", "application")

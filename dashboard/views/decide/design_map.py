@@ -11,7 +11,7 @@ from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
 from dashboard.views.components import bokeh_pane
 from dashboard.views.decide.asked import NO_SPECIFICATION, Asked, said
 from dashboard.views.decide.inputs import choice, number_options
-from trackig_core.decide.words import percent, sentence
+from trackig_core.decide.words import how_much, sentence
 
 
 class Map(Asked):
@@ -84,7 +84,9 @@ class Map(Asked):
         x, y = (FIELDS[name].label.lower() for name in (result.x_field, result.y_field))
         if result.complies is None:
             return f"{result.x.size} times {result.y.size} designs over {x} and {y}."
-        return f"{percent(float(result.complies.mean()))} of the designs over {x} and {y} comply."
+        share = float(result.complies.mean())
+        verb = "complies" if share == 0 else "comply"
+        return sentence(f"{how_much(share)} of the designs over {x} and {y} {verb}.")
 
     @property
     def _designs(self):

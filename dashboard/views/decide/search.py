@@ -150,11 +150,7 @@ class Search(Asked):
             else:
                 by = f"misses the limit at {found.in_the_way} Hz by {miss:.1f} dB"
             return f"None of {tried} complies; the closest {by}."
-        complying = int(found.complies.sum())
-        return (
-            f"{complying} of {tried} {'complies' if complying == 1 else 'comply'}; "
-            f"{found.front.size} of them no other beats."
-        )
+        return f"{found.summary}."
 
     def _choose(self, row):
         self._chosen = row
