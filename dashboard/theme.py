@@ -174,6 +174,7 @@ select.bk-input option { color: var(--panel-on-background-color); background: va
 
 CHECKS_CSS = """
 .bk-input-group { flex-wrap: wrap; }
+.bk-input-group.bk-inline > *:not(:first-child) { margin-left: 0; }
 label { font-size: 15px; margin-right: 14px; color: var(--panel-on-background-color); }
 """
 DRAWING_CSS = """

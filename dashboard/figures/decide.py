@@ -38,8 +38,13 @@ from dashboard.figures.axes import (
 from dashboard.figures.legends import Legend, legend_above, with_legend
 from dashboard.figures.swatches import marker_svg, swatch_svg
 
-DIVERGING = tuple(RdBu11[::-1])
-"""Colours from less to more, white between them; told apart by colour-blind readers."""
+LESS, MORE = RdBu11[8], RdBu11[2]
+"""Colours of less and of more, seen on light and on dark paper and told apart by colour-blind readers."""
+
+DIVERGING = tuple(
+    f"{LESS if step < 0 else MORE}{round(255 * abs(step)):02x}" for step in np.linspace(-1.0, 1.0, 11)
+)
+"""Colours from less to more, the paper itself between them: the less a change, the less is to be seen."""
 
 CELL = 0.9
 """Height of a cell of a heat map, of the room that a field has [-]."""

@@ -160,6 +160,11 @@ def said(words, kind):
     return words and f'<p role="status" class="{kind}">{html.escape(words)}</p>'
 
 
+def scrolled(name, content):
+    """Return HTML that keys can scroll where it is wider than its place, with a name."""
+    return f'<div class="scroll" tabindex="0" role="region" aria-label="{name}">{content}</div>'
+
+
 def kept_answer(question, words, result):
     """Return the record of an answer, and what the report shows of it."""
     # plots are slow to load, and nobody waits for them who keeps nothing

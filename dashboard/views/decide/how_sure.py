@@ -12,7 +12,7 @@ from dashboard.fields import FIELDS
 from dashboard.figures.decide import PercentileFigure
 from dashboard.persistence.samples import SamplesError, read_samples
 from dashboard.views.components import bokeh_pane, caption, panel
-from dashboard.views.decide.asked import BUTTON, Asked
+from dashboard.views.decide.asked import BUTTON, Asked, scrolled
 from dashboard.views.decide.inputs import choice, factor_label, is_number, percent_box, seed_box
 
 USUAL_TOLERANCES = {
@@ -129,13 +129,14 @@ class HowSure(Asked):
             f"<td>{100 * share:.1f} %</td></tr>"
             for name, share in result.tightened.items()
         )
-        self.table.object = (
-            f"<div class='scroll'><p>Governing margin of nine in ten: {formats.signed_text(low)} to "
+        self.table.object = scrolled(
+            "What halving a scatter does",
+            f"<p>Governing margin of nine in ten: {formats.signed_text(low)} to "
             f"{formats.signed_text(high)} dB. "
             f"Worst corner of all tolerances: {formats.signed_text(result.worst_margin)} dB. "
             f"{result.samples} samples, seed {result.seed}.</p>"
             "<table><thead><tr><th>Half the scatter of</th><th>complies</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table></div>"
+            f"<tbody>{rows}</tbody></table>",
         )
 
     def build(self):

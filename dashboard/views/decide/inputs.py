@@ -90,6 +90,13 @@ def choice(label, options, width, **words):
     )
 
 
+def titled(title, boxes):
+    """Return boxes to tick below what they are called together."""
+    name = pn.pane.HTML(f"<h3>{title}</h3>", stylesheets=[theme.ANSWER_CSS], margin=(0, 12))
+    boxes.margin = (0, 12)
+    return pn.Column(name, boxes, sizing_mode="stretch_width", margin=0)
+
+
 def factor_label(name):
     """Return what scatters, as it is spoken."""
     return FIELDS[name].label.lower() if name in FIELDS else "measured specimens"

@@ -11,7 +11,7 @@ from dashboard.fields import FIELDS
 from dashboard.figures.decide import CloudFigure
 from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
 from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside, said
-from dashboard.views.decide.inputs import NumberBox, choice, is_number, number_options, seed_box
+from dashboard.views.decide.inputs import NumberBox, choice, is_number, number_options, seed_box, titled
 from trackig_core.decide.words import sentence
 from trackig_core.names import LONGEST_NAME
 
@@ -180,8 +180,8 @@ class Search(Asked):
         """Return what is put on the page."""
         pictures = (self.cloud.objectives, self.cloud.fields, self.cloud.gains)
         return pn.Column(
-            pn.FlexBox(self.free, margin=(0, 12)),
-            pn.FlexBox(self.chosen, margin=(0, 12)),
+            titled("Free", self.free),
+            titled("From the catalogue", self.chosen),
             pn.FlexBox(
                 self.against,
                 *self.prices.values(),

@@ -141,7 +141,7 @@ def test_production_is_the_library_s(session):
     np.testing.assert_array_equal(view.percentiles.bands.data["limit"], LIMITS.levels)
     assert "of production" in view.sentence.object
     for box in view.tolerances.values():
-        box.value = 0.0
+        box.value = "0"
     session.do(view.ask)
     assert "Give one of the tolerances" in view.sentence.object
 
