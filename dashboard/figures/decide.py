@@ -15,6 +15,7 @@ from bokeh.models import (
     HoverTool,
     LinearColorMapper,
     Range1d,
+    Scatter,
     TapTool,
 )
 from bokeh.palettes import RdBu11, Viridis256
@@ -430,6 +431,20 @@ STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDo
 STRIDE = 10
 """Points that a key moves by with Shift [-]."""
 
+CHOSEN_SIZE = 15
+"""Size of the dot of a design that is chosen [px]."""
+
+MOST_PLAIN = 3
+"""Curves that are told apart without being seen through [-]."""
+
+DOTS = {
+    "no other beats it": theme.COUPLED_BLOCK,
+    "complies": theme.LOADED_TRACK,
+    "fails": theme.PRESET_GHOST,
+    "chosen": theme.THIS_DESIGN,
+}
+"""Colours of the designs of a search, by what they are."""
+
 CLOUD_KEYS = "arrow keys go through the best designs, with Shift several are chosen, Enter takes one"
 """What screen readers say of the keys of a search's pictures."""
 
@@ -457,6 +472,8 @@ class CloudFigure:
         Named ``found_gains``: insertion gain of the designs that are selected.
     objectives, fields, gains : bokeh.plotting.figure
         The pictures.
+    legend : Legend
+        What the colours of the first two mean.
     """
 
     def __init__(self, on_select):
@@ -467,6 +484,7 @@ class CloudFigure:
         )
         self.curves = ColumnDataSource(name="found_gains", data={"xs": [], "ys": []})
         self.objectives = self._picture("objectives_figure", "Designs by their objectives", theme.MEDIUM)
+        self.legend = Legend("objectives_figure")
         self.fields = self._picture("fields_figure", "Designs by their fields", theme.MEDIUM)
         self.gains = blank_figure(
             name="found_gain_figure",
@@ -505,6 +523,10 @@ class CloudFigure:
             line_color=None,
             nonselection_fill_alpha=0.1,
         )
+        # among hundreds of dots, the one that is chosen is found by its size and its ring
+        dots.selection_glyph = Scatter(
+            x="x", y="y", size=CHOSEN_SIZE, fill_color=theme.THIS_DESIGN, line_color="white", line_width=2
+        )
         self.objectives.add_tools(
             HoverTool(renderers=[dots], tooltips=[("x", "@x{0.00}"), ("y", "@y{0.00}")])
         )
@@ -515,14 +537,17 @@ class CloudFigure:
             line_color="colour",
             line_alpha=0.35,
             selection_line_alpha=1,
+            selection_line_color=theme.THIS_DESIGN,
+            selection_line_width=theme.THIN_LINE_WIDTH,
             nonselection_line_alpha=0.04,
         )
         _fit(self.fields.y_range, np.array([0.0, 1.0]))
         self.fields.yaxis.visible = False
         self.fields.ygrid.visible = False
-        self.gains.multi_line(
-            xs="xs", ys="ys", source=self.curves, line_color=theme.THIS_DESIGN, line_alpha=0.5
+        self._curves = self.gains.multi_line(
+            xs="xs", ys="ys", source=self.curves, line_width=theme.THIN_LINE_WIDTH
         )
+        self.legend.show([(words, marker_svg(colour, "circle")) for words, colour in DOTS.items()])
         self.limit = ColumnDataSource(name="found_limit", data=BANDS | {"limit": NO_LIMIT})
         _draw_limit(self.gains, self.limit)
 
@@ -565,7 +590,7 @@ class CloudFigure:
             "xs": [axis] * len(rows),
             "ys": list(places),
             "colour": [
-                theme.COUPLED_BLOCK if best else theme.THIS_DESIGN if complies else theme.PRESET_GHOST
+                DOTS["no other beats it" if best else "complies" if complies else "fails"]
                 for best, complies in zip(front, found.complies[rows], strict=True)
             ],
             "size": np.where(front, 9, 5),
@@ -614,6 +639,10 @@ class CloudFigure:
         chosen = rows[indices] if len(indices) else self._found.front
         chosen = chosen[:: max(1, -(-len(chosen) // MOST_CURVES))]
         levels = self._levels[chosen]
+        self._curves.glyph.update(
+            line_color=DOTS["chosen"] if len(indices) else DOTS["no other beats it"],
+            line_alpha=1.0 if len(levels) <= MOST_PLAIN else 0.4,
+        )
         self.curves.data = {"xs": [tig.BAND_CENTRES] * len(levels), "ys": list(levels)}
         self._on_select(int(rows[indices[0]]) if len(indices) else None)
 

@@ -9,6 +9,7 @@ from dashboard import formats, theme
 from dashboard.compute.document import NextTick
 from dashboard.fields import FIELDS
 from dashboard.figures.decide import CloudFigure
+from dashboard.figures.legends import with_legend
 from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
 from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside, said
 from dashboard.views.decide.inputs import NumberBox, choice, is_number, number_options, seed_box, titled
@@ -178,7 +179,8 @@ class Search(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        pictures = (self.cloud.objectives, self.cloud.fields, self.cloud.gains)
+        objectives = with_legend(self.cloud.objectives, self.cloud.legend)
+        pictures = (objectives, self.cloud.fields, self.cloud.gains)
         return pn.Column(
             titled("Free", self.free),
             titled("From the catalogue", self.chosen),
