@@ -26,7 +26,7 @@ from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.solver import FIDELITIES
 from trackig_core.study.catalogue import KINDS
-from trackig_core.track.fields import SLIDER_RANGES
+from trackig_core.track.fields import SEARCHED_RANGES
 
 FAILED, STOPPED = 1, 130
 """Exit codes: nothing complies; the user pressed Ctrl+C."""
@@ -119,9 +119,12 @@ def _add_repeated(command, option, action="append", **words):
     command.add_argument(option, action=action, **words)
 
 
+FIELD_HELP = "this field, such as boot_stiffness or ground.stiffness"
+
+
 def _add_range(add):
     command = add("range", help="Print where the design complies along each field, all others held.")
-    _add_repeated(command, "--field", dest="fields", metavar="FIELD", help="this field")
+    _add_repeated(command, "--field", dest="fields", metavar="FIELD", help=FIELD_HELP)
     _add_ranges(command)
 
 
@@ -155,7 +158,11 @@ def _add_map(add):
     command = add(
         "map",
         help="Compute figures over two fields; exit with 1 if no design of the map complies.",
-        epilog="The table goes to --csv; printed is what it says in one sentence.",
+        epilog=(
+            "The table goes to --csv; printed is what it says in one sentence. Fields are numbers of the "
+            "design, such as boot_stiffness, and by path those of what stands on and under it: "
+            "ground.stiffness, suspension.primary_damping."
+        ),
     )
     command.add_argument("x_field", metavar="X_FIELD")
     command.add_argument("y_field", metavar="Y_FIELD")
@@ -560,9 +567,9 @@ def _free(text):
     """Return a field, and its range or that of its slider."""
     if "=" in text:
         return _range(text)
-    if text not in SLIDER_RANGES:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r}: fields are {', '.join(SLIDER_RANGES)}")
-    return text, list(SLIDER_RANGES[text])
+    if text not in SEARCHED_RANGES:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r}: fields are {', '.join(SEARCHED_RANGES)}")
+    return text, list(SEARCHED_RANGES[text])
 
 
 def _points(text):

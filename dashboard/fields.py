@@ -1,13 +1,14 @@
 """The table of a design's numbers as they are shown: what they are called, units, sliders, help.
 
 Sliders, report, comparison table, link, study and lessons read it. The ranges here are those of the sliders
-[display units]: where a designer chooses the number, the core's ``SLIDER_RANGES``, which its searches cover
-too. What the core takes [SI] stands in ``RANGES`` of ``trackig_core.track.fields``.
+[display units]: where a designer chooses the number, the core's ``SEARCHED_RANGES``, which its questions
+cover too. What the core takes [SI] stands in ``RANGES`` of ``trackig_core.track.fields``.
 """
 
 from dataclasses import dataclass
 
-from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, SLIDER_RANGES
+from trackig_core.decide.numbers import is_logarithmic
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, SEARCHED_RANGES
 
 OPENING_PRESET = "booted-block-low-mass"
 """The preset on which the dashboard opens."""
@@ -101,52 +102,50 @@ class Field:
 _STIFF = ("kN/mm", NEWTON_PER_METRE)
 
 
-def _of_slider(name, label, unit, factor, step, *rest, **options):
-    """Return a number that a designer chooses (Field), over the range that the core searches."""
-    low, high = (six_figures(end / factor) for end in SLIDER_RANGES[name])
+def _of_range(name, label, unit, factor, step, *rest, **options):
+    """Return a number (Field) over the range that the core searches."""
+    low, high = (six_figures(end / factor) for end in SEARCHED_RANGES[name])
+    options.setdefault("logarithmic", is_logarithmic(name))
     return Field(name, label, unit, factor, low, high, step, *rest, **options)
 
 
 FIELDS = {
     field.name: field
     for field in (
-        _of_slider(
+        _of_range(
             *("pad_stiffness", "Pad stiffness", *_STIFF, 1, "Rail pad"),
             "Dynamic stiffness between rail and block, or ground; at 50 Hz unless stated.",
-            logarithmic=True,
         ),
-        _of_slider(
+        _of_range(
             *("pad_loss_factor", "Pad loss factor", "", 1.0, 0.01, "Rail pad"),
             "Part of the pad's stiffness that damps: it limits the peak at the loaded-track frequency.",
         ),
-        _of_slider(
+        _of_range(
             *("block_mass", "Block mass", "kg", 1.0, 1, "Block and boot"),
             "Mass between pad and boot; above the coupled-block frequency it isolates.",
             second_stage=True,
         ),
-        _of_slider(
+        _of_range(
             *("boot_stiffness", "Boot stiffness", *_STIFF, 0.5, "Block and boot"),
             "Dynamic stiffness under the block, at 50 Hz unless stated; the softer, the lower it isolates.",
-            logarithmic=True,
             second_stage=True,
         ),
-        _of_slider(
+        _of_range(
             *("boot_loss_factor", "Boot loss factor", "", 1.0, 0.01, "Block and boot"),
             "Part of the boot's stiffness that damps.",
             second_stage=True,
         ),
-        _of_slider(
+        _of_range(
             *("fastener_spacing", "Fastener spacing", "m", 1.0, 0.01, "Track"),
             "Distance between supports along the rail: the wider, the softer the track.",
         ),
-        _of_slider(
+        _of_range(
             *("wheel_mass", "Unsprung wheel mass", "kg", 1.0, 10, "Vehicle"),
             "Mass that bounces on the track below the primary suspension, of one wheel.",
         ),
-        _of_slider(
+        _of_range(
             *("contact_stiffness", "Contact stiffness", *_STIFF, 10, "Advanced"),
             "Hertzian spring between wheel and rail; in series with the track's stiffness.",
-            logarithmic=True,
         ),
     )
 }
@@ -222,6 +221,52 @@ EXTRA_FIELDS = {
 
 EVERY_FIELD = FIELDS | EXTRA_FIELDS
 """Every number that the sidebar sets, by its name."""
+
+AROUND_FIELDS = {
+    field.name: field
+    for field in (
+        _of_range(
+            *("suspension.primary_stiffness", "Primary stiffness", "kN/mm", NEWTON_PER_METRE, 0.1, SUSPENDED),
+            "Of the springs between a wheel and the bogie.",
+        ),
+        _of_range(
+            *("suspension.primary_damping", "Primary damping", "kN s/m", KILONEWTON, 1, SUSPENDED),
+            "Of the dampers between a wheel and the bogie.",
+        ),
+        _of_range(
+            *("suspension.bogie_mass", "Bogie mass per wheel", "kg", 1.0, 10, SUSPENDED),
+            "Share of the bogie that one wheel carries.",
+        ),
+        _of_range(
+            *("suspension.secondary_stiffness", "Secondary stiffness", "kN/mm", NEWTON_PER_METRE, 0.01),
+            *(SUSPENDED, "Of the springs between bogie and body, per wheel."),
+        ),
+        _of_range(
+            *("suspension.secondary_damping", "Secondary damping", "kN s/m", KILONEWTON, 1, SUSPENDED),
+            "Of the dampers between bogie and body, per wheel.",
+        ),
+        _of_range(
+            *("suspension.body_mass", "Body mass per wheel", "kg", 1.0, 10, SUSPENDED),
+            "Share of the body that one wheel carries.",
+        ),
+        _of_range(
+            *("ground.stiffness", "Ground stiffness", *_STIFF, 1, GROUND),
+            "Of the ground under one support.",
+        ),
+        _of_range(
+            *("ground.damping", "Ground damping", "kN s/m", KILONEWTON, 1, GROUND),
+            "What the ground under one support radiates.",
+        ),
+        _of_range(
+            *("ground.mass", "Ground mass", "kg", 1.0, 1, GROUND),
+            "Of the ground that moves with a support.",
+        ),
+    )
+}
+"""Numbers of suspension and ground by path: they have no slider, and questions may be about them."""
+
+ASKED_FIELDS = FIELDS | AROUND_FIELDS | {"speed": EXTRA_FIELDS["speed"]}
+"""Every number about which the questions of the tab Decide may be, by name or path."""
 
 GROUPS = ("Rail pad", "Block and boot", "Track", "Vehicle", SUSPENDED, GROUND, "Advanced", "Statics")
 """Groups of the sidebar, in its order."""

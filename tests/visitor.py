@@ -165,6 +165,19 @@ class Visitor:
         message = {"kind": "set", "number": self._number, "values": {"boot_stiffness": value}, "gesture": 1}
         await self.patch(told(self.component("groups"), message))
 
+    async def click(self, label):
+        """Click the button of a label, once it is there."""
+        await self.until(lambda: self.labelled(label) is not None)
+        await self.patch(event("dom_event", self.labelled(label), node="click", data={"type": "click"}))
+
+    def labelled(self, label):
+        """Return the identity of the component of a label, or None."""
+        for key, model in self.models.items():
+            data = model["attributes"].get("data")
+            if isinstance(data, dict) and data.get("attributes", {}).get("label") == label:
+                return key
+        return None
+
     async def until(self, is_so, timeout=WAIT):
         """Hear the server out until something is so."""
         async with asyncio.timeout(timeout):
@@ -194,9 +207,14 @@ def changed(model, attribute, value):
 
 def told(model, message):
     """Return the message of a component's script."""
-    values = {"type": "map", "entries": [["model", {"id": model}], ["data", message]]}
+    return event("data_event", model, data=message)
+
+
+def event(name, model, **values):
+    """Return what a component says that happened."""
+    entries = [["model", {"id": model}], *([key, each] for key, each in values.items())]
     return {
         "kind": "MessageSent",
         "msg_type": "bokeh_event",
-        "msg_data": {"type": "event", "name": "data_event", "values": values},
+        "msg_data": {"type": "event", "name": name, "values": {"type": "map", "entries": entries}},
     }

@@ -10,6 +10,8 @@ from functools import partial
 
 import panel as pn
 
+from dashboard.compute.pacing import PACE
+
 log = logging.getLogger(__name__)
 
 _open = []
@@ -75,8 +77,8 @@ def on_next_tick(document, change):
 def in_turns(steps, on_error):
     """Do work of the current session step by step, each step on a turn of its own once the page has loaded.
 
-    Between them the server does what other sessions wait for. Without a session, as in tests, all is done at
-    once.
+    Between them the server does what other sessions wait for, as :mod:`dashboard.compute.pacing` has it.
+    Without a session, as in tests, all is done at once.
 
     Parameters
     ----------
@@ -90,9 +92,14 @@ def in_turns(steps, on_error):
         for _ in steps:
             pass
         return
-    turn = partial(_take_turn, document, steps, on_error)
-    begin = partial(document.add_next_tick_callback, turn)
+    begin = partial(_begin_turn, document, steps, on_error)
     begin() if pn.state.loaded else pn.state.onload(begin)
+
+
+def _begin_turn(document, steps, on_error):
+    PACE.enter(document)
+    take_turn = partial(_take_turn, document, steps, on_error)
+    PACE.begin(partial(document.add_next_tick_callback, take_turn))
 
 
 def _take_turn(document, steps, on_error):
@@ -100,10 +107,11 @@ def _take_turn(document, steps, on_error):
         with one_message(document):
             next(steps)
     except StopIteration:
+        PACE.leave(document)
         return
     except Exception as error:
         on_error(error)
-    document.add_next_tick_callback(partial(_take_turn, document, steps, on_error))
+    _begin_turn(document, steps, on_error)
 
 
 @contextlib.contextmanager

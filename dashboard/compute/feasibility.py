@@ -9,7 +9,7 @@ import math
 import param
 
 from dashboard.compute.inquiries import Inquiry, InquiryRunner, question_of
-from dashboard.fields import FIELDS, PHYSICAL
+from dashboard.fields import ASKED_FIELDS, FIELDS, PHYSICAL
 from dashboard.formats import quantity_text
 
 FIGURES = 4
@@ -78,7 +78,7 @@ def shown_stretches(result, name):
     list of (float, float)
         Lowest and highest value of each stretch [display unit].
     """
-    field, (least, greatest) = FIELDS[name], result.ranges[name]
+    field, (least, greatest) = ASKED_FIELDS[name], result.ranges[name]
     found = []
     for low, high in result[name]:
         begin = field.to_display(low) if low == least else _rounded(low / field.factor, math.ceil)
@@ -113,7 +113,7 @@ def where(result, name):
     if not result[name]:
         return "nowhere"
     least, greatest = result.ranges[name]
-    texts, unit = [], FIELDS[name].unit
+    texts, unit = [], ASKED_FIELDS[name].unit
     for (low, high), stretch in zip(result[name], shown_stretches(result, name), strict=True):
         begin, end = (f"{quantity_text(edge)} {unit}".rstrip() for edge in stretch)
         if low == least and high == greatest:

@@ -14,7 +14,7 @@ from types import MappingProxyType
 import param
 
 import trackig_core as tig
-from dashboard.compute.document import one_message
+from dashboard.compute.document import on_next_tick, one_message
 from dashboard.compute.latest import Latest, readable
 from dashboard.compute.runner import LOOK_EVERY
 from dashboard.compute.workers import AT_ONCE, AT_REST, key_of
@@ -123,13 +123,10 @@ class PinnedSummaries(param.Parameterized):
         return not self._closed and any(each.key == pin.key for each in self._pins.pinned)
 
     def _publish(self, document, pin, name, value):
-        # what watches may draw, and models change only under the lock that a next-tick callback holds
-        if document is None or document.session_context is None:
-            self._put(pin, name, value)
-        else:
-            document.add_next_tick_callback(partial(self._put, pin, name, value, document))
+        # what watches it may draw
+        on_next_tick(document, partial(self._put, pin, name, value))
 
-    def _put(self, pin, name, value, document=None):
+    def _put(self, pin, name, value, document):
         # a run that was kept may have come before the curve that was asked for
         if not self._wanted(pin) or self._fidelity(pin) == AT_REST:
             return

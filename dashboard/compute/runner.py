@@ -2,9 +2,10 @@
 
 While inputs move, each newest state is solved at live fidelity, in some milliseconds, and older ones that
 still wait are dropped: pictures follow the hand. Where little is lost and a live run takes longer, the exact
-curve is drawn at once, and the force when the run is there. When inputs rest, the paper's run of the same
-design takes the picture's place. A paper run under way gives way to newer inputs at once. Solutions come from
-stores that all sessions share.
+curve is drawn at once, and the force when the run is there. Where many sessions share the server, drawing is
+what takes long, and the exact curve is the one picture of a move. When inputs rest, the paper's run of the
+same design takes the picture's place. A paper run under way gives way to newer inputs at once. Solutions come
+from stores that all sessions share.
 
 The last good picture stays until a better one is there, and no picture follows one of newer
 inputs.
@@ -31,6 +32,9 @@ RESTS = 2
 
 SOON = 0.06
 """Seconds for which a live run is waited for before the exact curve is drawn."""
+
+BUSY = 0.1
+"""Seconds that drawing takes on a server that is busy with other sessions; alone it takes a third of that."""
 
 PATIENCE = 0.5
 """Seconds of work after which a live run, under light damping, is given up for the paper's."""
@@ -89,7 +93,7 @@ class Runner(param.Parameterized):
         self._live_store = live_store
         self._latest = Latest(self._solve)
         self._stopping = False
-        self._live_is_slow = False
+        self._live_is_slow = self._server_is_busy = False
         self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
         self.param.watch(self._on_change, "requests")
 
@@ -164,6 +168,17 @@ class Runner(param.Parameterized):
 
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
+        is_busy = self._server_is_busy or self._live_store.is_crowded()
+        taken = await self._draw_exact(design, document) if is_busy else None
+        if taken is None:
+            taken = await self._draw_live(design, document)
+        drawing = await self._until_drawn(document)
+        self._server_is_busy = drawing > BUSY
+        if await self._latest.news_within(max(REST, RESTS * (taken + drawing))):
+            raise _SupersededError
+
+    async def _draw_live(self, design, document):
+        """Draw a live run, or the exact curve before it, and return when there was a picture [s]."""
         taken = 0.0
         live = asyncio.ensure_future(self._obtain(design, MOVING, document))
         try:
@@ -177,9 +192,7 @@ class Runner(param.Parameterized):
                 await self._draw_exact(design, document)
         finally:
             _abandon(live)
-        taken += await self._until_drawn(document)
-        if await self._latest.news_within(max(REST, RESTS * taken)):
-            raise _SupersededError
+        return taken
 
     async def _until_drawn(self, document):
         """Wait until what was published is drawn, and return how long that took [s]; what is newer ends it.
@@ -193,22 +206,24 @@ class Runner(param.Parameterized):
         return time.monotonic() - began
 
     async def _draw_exact(self, design, document):
-        """Draw the exact curve of a design, if it has one."""
+        """Draw the exact curve of a design and return how long that took [s]; None if it has none."""
+        began = time.monotonic()
         with contextlib.suppress(tig.DesignError):
             summary, from_cache = await self._obtain(design, AT_ONCE, document)
             self._publish(document, **self._success(design, summary, from_cache))
+            return time.monotonic() - began
+        return None
 
     async def _bridge(self, live, design, document):
         """Draw the exact curve while a live run is awaited for long, and return when there was a picture [s].
 
         What is newer ends the wait.
 
-        Where the last one took long, or others wait for theirs, this one will: its exact curve is drawn
-        without waiting. It stays where the live run is given up.
+        Where the last one took long, this one will: its exact curve is drawn without waiting. It stays where
+        the live run is given up.
         """
         began = time.monotonic()
-        is_slow = self._live_is_slow or self._live_store.is_crowded()
-        await asyncio.wait({live}, timeout=0 if is_slow else SOON)
+        await asyncio.wait({live}, timeout=0 if self._live_is_slow else SOON)
         taken = time.monotonic() - began
         if not live.done():
             summary, from_cache = await self._obtain(design, AT_ONCE, document)

@@ -24,7 +24,7 @@ from bokeh.plotting.contour import contour_data
 
 import trackig_core as tig
 from dashboard import theme
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.axes import (
     KEYS,
     LEVEL_ROOM,
@@ -311,7 +311,7 @@ class MapFigure:
         limits : dict of str to float or None
             Limit by name of a figure [SI], along which designs just comply.
         """
-        x_field, y_field = FIELDS[found.x_field], FIELDS[found.y_field]
+        x_field, y_field = ASKED_FIELDS[found.x_field], ASKED_FIELDS[found.y_field]
         x, y = found.x / x_field.factor, found.y / y_field.factor
         values = found.figures[figure_name] * SCALES.get(figure_name, 1.0)
         plot = self.model = figure(
@@ -361,7 +361,7 @@ class MapFigure:
             return
         names = (found.x_field, found.y_field)
         placed = [each for each in designs if _is_placed(each.design, names)]
-        x, y = ([getattr(each.design, name) / FIELDS[name].factor for each in placed] for name in names)
+        x, y = ([each.design.value(name) / ASKED_FIELDS[name].factor for each in placed] for name in names)
         markers = ["circle" if each.key is None else "diamond" for each in placed]
         self.marks.data = {"x": x, "y": y, "marker": markers, "colour": [each.colour for each in placed]}
         entries = [
@@ -388,8 +388,8 @@ class MapFigure:
             min(max(row + points * up, 0), found.y.size - 1),
         )
         self.cross.data = {
-            "x": [found.x[column] / FIELDS[found.x_field].factor],
-            "y": [found.y[row] / FIELDS[found.y_field].factor],
+            "x": [found.x[column] / ASKED_FIELDS[found.x_field].factor],
+            "y": [found.y[row] / ASKED_FIELDS[found.y_field].factor],
         }
         return self._place
 
@@ -399,8 +399,8 @@ class MapFigure:
         return tuple(
             int(np.abs(values - value).argmin()) if isinstance(value, float) else values.size // 2
             for values, value in (
-                (found.x, getattr(found.design, found.x_field)),
-                (found.y, getattr(found.design, found.y_field)),
+                (found.x, found.design.value(found.x_field)),
+                (found.y, found.design.value(found.y_field)),
             )
         )
 
@@ -417,7 +417,7 @@ def _draw_edge(plot, x, y, over, words, dash):
 
 def _is_placed(design, names):
     """Return whether a design has single numbers there: a curve or a missing block has no place on a map."""
-    return all(isinstance(getattr(design, name), float) for name in names)
+    return all(isinstance(design.value(name), float) for name in names)
 
 
 MARK_COLUMNS = ("x", "y", "marker", "colour")
@@ -717,7 +717,7 @@ def _places_by_name(names):
 
 
 def _places(found, name, rows, low, high):
-    values = found.many.columns[name][rows].astype(float)
-    if FIELDS[name].logarithmic:
+    values = found.many.column(name)[rows].astype(float)
+    if ASKED_FIELDS[name].logarithmic:
         return np.log(values / low) / np.log(high / low)
     return (values - low) / (high - low)

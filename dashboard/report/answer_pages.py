@@ -12,7 +12,7 @@ from markupsafe import Markup
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.compute.feasibility import where
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS
 from dashboard.report import plots
 from dashboard.session.answers import FIGURE_WORDS, TITLES, field_label, settings_texts, with_unit
 from trackig_core.decide.questions import digest
@@ -100,9 +100,9 @@ def question_lines(answer):
     question = answer.question
     design = question.design
     numbers = [
-        f"{field.label.lower()} {with_unit(name, getattr(design, name), 6)}"
-        for name, field in FIELDS.items()
-        if isinstance(getattr(design, name), float)
+        f"{field.label.lower()} {with_unit(name, design.value(name), 6)}"
+        for name, field in ASKED_FIELDS.items()
+        if isinstance(design.value(name), float)
     ]
     lines = [f"Asked of: {', '.join(numbers)}, rail {design.rail.name}."]
     if question.specification is not None:
@@ -114,9 +114,9 @@ def question_lines(answer):
 
 def _range(_, result):
     rows = tuple(
-        (FIELDS[name].label, with_unit(name, getattr(result.design, name)), where(result, name))
+        (ASKED_FIELDS[name].label, with_unit(name, result.design.value(name)), where(result, name))
         for name in result
-        if name in FIELDS
+        if name in ASKED_FIELDS
     )
     return AnswerPage((AnswerTable(("All others held", "as asked", "complies"), rows),))
 
@@ -166,7 +166,7 @@ def _tolerance(answer, result):
     specification = answer.question.specification
     low, median, high = map(formats.signed_text, result.margin_percentiles)
     rows = tuple(
-        (FIELDS[name].label if name in FIELDS else name, f"{100 * share:.1f} %")
+        (ASKED_FIELDS[name].label if name in ASKED_FIELDS else name, f"{100 * share:.1f} %")
         for name, share in result.tightened.items()
     )
     worst = (
@@ -197,7 +197,7 @@ def _name(answer):
 def _map(answer, result):
     name, values = next(iter(result.figures.items()))
     words, scale = figure_words(name)
-    x_field, y_field = FIELDS[result.x_field], FIELDS[result.y_field]
+    x_field, y_field = ASKED_FIELDS[result.x_field], ASKED_FIELDS[result.y_field]
     with plots.DRAWING:
         figure, axes = plots.blank(4.2)
         # areas between levels: an image would be fetched from outside the drawing, which the file forbids
@@ -212,7 +212,7 @@ def _map(answer, result):
         axes.set_yscale("log" if y_field.logarithmic else "linear")
         axes.set_xlabel(x_field.labelled)
         axes.set_ylabel(y_field.labelled)
-        place = [getattr(result.design, each.name) / each.factor for each in (x_field, y_field)]
+        place = [result.design.value(each.name) / each.factor for each in (x_field, y_field)]
         axes.plot(*place, "o", color=theme.THIS_DESIGN, markeredgecolor=theme.LIGHT_PAPER, markersize=9)
         drawing = plots.svg(figure, _name(answer))
     remark = "Dot: the design that was asked about."
@@ -223,17 +223,17 @@ def _map(answer, result):
 
 def figure_words(name):
     """Return what a figure is called, with the unit that is shown, and what turns SI into it."""
-    if name in FIELDS:
-        return FIELDS[name].labelled, 1 / FIELDS[name].factor
+    if name in ASKED_FIELDS:
+        return ASKED_FIELDS[name].labelled, 1 / ASKED_FIELDS[name].factor
     return FIGURE_WORDS.get(name, (f"Insertion gain at {name} Hz, dB", 1.0))
 
 
 def _find(_, result):
-    fields = [name for name in result.many.columns if name in FIELDS and _numbers_vary(result, name)]
+    fields = [name for name in ASKED_FIELDS if _numbers_vary(result, name)]
     objectives = [name for name in result.objectives if name not in fields]
     with_rail = "rail" not in result.chosen and _varies(result, "rail")
     heads = (
-        *(FIELDS[name].labelled for name in fields),
+        *(ASKED_FIELDS[name].labelled for name in fields),
         *(["Rail"] if with_rail else []),
         *(kind.capitalize() for kind in result.chosen),
         *(figure_words(name)[0] for name in objectives),
@@ -242,7 +242,9 @@ def _find(_, result):
     rows = []
     for place in best if best.size else [result.closest]:
         design = result.many.design(int(place))
-        cells = [formats.quantity_text(float(f"{getattr(design, n) / FIELDS[n].factor:.4g}")) for n in fields]
+        cells = [
+            formats.quantity_text(float(f"{design.value(n) / ASKED_FIELDS[n].factor:.4g}")) for n in fields
+        ]
         cells += [design.rail.name] if with_rail else []
         cells += [names[place] for names in result.chosen.values()]
         for name in objectives:
@@ -255,12 +257,13 @@ def _find(_, result):
 
 
 def _numbers_vary(result, name):
-    """Return whether a field has several values, none of which is measured over frequency."""
-    return result.many.columns[name].dtype == float and _varies(result, name)
+    """Return whether a field has several values, none of which is missing or measured over frequency."""
+    column = result.many.column(name)
+    return column.dtype == float and bool(column.min() < column.max())
 
 
 def _varies(result, name):
-    column = result.many.columns[name]
+    column = result.many.column(name)
     return any(each != column.flat[0] for each in column.flat)
 
 

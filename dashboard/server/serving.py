@@ -34,6 +34,7 @@ from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.websocket import WebSocketClosedError
 
 import trackig_core as tig
+from dashboard.compute.pacing import PACE
 from dashboard.server import sessions
 from dashboard.server.acceptor import HEALTH, Acceptor
 from dashboard.server.command import PAGE
@@ -90,9 +91,23 @@ class SocketHandler(WSHandler):
         self.set_nodelay(True)
         return super().open()
 
+    async def _async_open(self, token):
+        """Begin a session when those who work and pages that have begun let it.
+
+        Whoever has left meanwhile gets none: nothing would end it.
+        """
+        await PACE.turn()
+        if self._is_open():
+            await super()._async_open(token)
+
+    def _is_open(self):
+        return self.ws_connection is not None and not self.ws_connection.is_closing()
+
     async def on_message(self, fragment):
         """Take what a page sends, but nothing after what it was cut off for."""
-        if self.ws_connection is not None and not self.ws_connection.is_closing():
+        if self.connection is not None:
+            PACE.hear(self.connection.session.document)
+        if self._is_open():
             await super().on_message(fragment)
 
     async def _handle(self, message):

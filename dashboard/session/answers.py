@@ -2,7 +2,7 @@
 
 import param
 
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS
 from dashboard.formats import quantity_text
 
 MOST_KEPT = 20
@@ -93,12 +93,12 @@ def settings_texts(question):
 
 def field_label(name):
     """Return what a field is called in the middle of a sentence."""
-    return FIELDS[name].label.lower() if name in FIELDS else name.replace("_", " ")
+    return ASKED_FIELDS[name].label.lower() if name in ASKED_FIELDS else name.replace("_", " ")
 
 
 def with_unit(name, value, figures=4):
     """Return a value [SI] of a field in the slider's unit, with it."""
-    field = FIELDS.get(name)
+    field = ASKED_FIELDS.get(name)
     if field is None:
         return quantity_text(value)
     return f"{value / field.factor:.{figures}g} {field.unit}".rstrip()

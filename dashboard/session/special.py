@@ -8,6 +8,7 @@ import dataclasses
 
 import trackig_core as tig
 from dashboard.fields import (
+    ASKED_FIELDS,
     EVERY_FIELD,
     EXTRAS,
     NEWTON_PER_METRE,
@@ -72,10 +73,10 @@ def is_on_slider(name, value):
 
 def six_figures_of(design):
     """Return a design whose numbers have six figures, as sliders have: one that was found, not given."""
-    numbers = {name: getattr(design, name) for name in NUMBERS}
+    numbers = {name: design.value(name) for name in ASKED_FIELDS}
     return design.replace(
         **{
-            name: to_si(name, to_display(name, value))
+            name: ASKED_FIELDS[name].to_si(ASKED_FIELDS[name].to_display(value))
             for name, value in numbers.items()
             if isinstance(value, float)
         }

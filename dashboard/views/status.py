@@ -80,7 +80,7 @@ def status_html(outcome):
 COMPILING = "Compiling the solver for this computer; it takes some seconds, at the first start only …"
 
 
-MORE_THAN_SIMPLIFIED = "vehicle, axles or ground stand"
+MORE_THAN_SIMPLIFIED = "vehicle, axles or ground stand here, so that its force takes longer"
 """Why a force takes longer than that of the simplified model."""
 
 
@@ -103,8 +103,10 @@ def status_words(outcome):
     summary = outcome.summary
     took = formats.duration_text(summary.seconds)
     if summary.solution.fidelity == "exact":
-        why = "little is lost" if summary.design == summary.design.simplified else MORE_THAN_SIMPLIFIED
-        words = f"Exact curve, solved in {took}; {why} here, so that its force takes longer"
+        # where little is lost the force takes longer, and where many share the server drawing it does
+        simple = summary.design == summary.design.simplified
+        when = "its force follows when the inputs rest" if simple else MORE_THAN_SIMPLIFIED
+        words = f"Exact curve, solved in {took}; {when}"
     elif summary.solution.fidelity == "live":
         words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
     elif outcome.from_cache:

@@ -21,7 +21,7 @@ import trackig_core as tig
 from tests.browser.conftest import chromium, wait_until_solved  # noqa: F401  (a fixture)
 from tests.dashboard.server.conftest import serving
 from tests.dashboard.server.test_hostile import disturb
-from tests.visitor import Visitor
+from tests.visitor import Visitor, told
 
 SCALE = float(os.environ.get("TRACKIG_BENCH_SCALE", "1"))
 
@@ -209,6 +209,42 @@ def test_frames_beside_another_session(served, row, query):
     row(f"frames kept beside a session that drags {what}", shares, "two thirds")
 
 
+DEMAND = tig.Specification([(63.0, -3.0), (80.0, -6.0)])
+"""What a session demands that asks which track is the one."""
+
+
+@pytest.mark.parametrize("button", ["Draw the map", "Find designs"])
+def test_frames_beside_a_long_question(served, row, button):
+    async def ask(visitor, done):
+        """Ask anew, of another track each time, as long as the other one drags."""
+        chance = np.random.default_rng(next(SEEDS))
+        while not done.done():
+            await visitor.move(round(chance.uniform(10, 40), 2))
+            await visitor.answer(PATIENCE)
+            await visitor.click(button)
+            await asyncio.sleep(3)
+
+    async def drag():
+        visitor = await Visitor(served.host + "/dashboard").open()
+        other = await Visitor(served.host + "/dashboard?tab=decide").open(drawn=False)
+        study = tig.Study(tig.PRESETS["booted-block-low-mass"], specification=DEMAND)
+        await other.patch(told(other.component("kept"), {"kind": "restore", "data": study.to_toml()}))
+        shares = []
+        for _ in range(3):
+            alone, beside = [], []
+            await drag_politely(visitor, alone)
+            dragging = asyncio.create_task(drag_politely(visitor, beside))
+            await ask(other, dragging)
+            await dragging
+            shares.append(len(beside) / len(alone))
+        visitor.close()
+        other.close()
+        return shares
+
+    shares = ", ".join(f"{share:.0%}" for share in run(drag()))
+    row(f"frames kept beside “{button}”", shares, "two thirds")
+
+
 def test_flooding_sessions_and_a_polite_one_beside_them(served, row):
     polite, flooding, _ = run(load(served, 1, sized(10)))
     row(f"{len(flooding)} flood", summary(flooding), "p95 below 1.5 s")
@@ -277,6 +313,8 @@ def test_nonsense(served, row):
     count, before = sized(10_000), memory(served)
     said = len(served.log.read_text().splitlines())
     connections, answers = run(disturb(served.host + "/dashboard", 0, count), limit=NONSENSE_LIMIT)
+    # sessions that were cut off are kept for a while, since a browser may come back
+    time.sleep(60)
     assert all(each["traceback"] is None for each in answers)
     log = served.log.read_text()
     assert "Traceback" not in log

@@ -171,3 +171,35 @@ def test_a_box_drawn_by_mouse_brushes_all_pictures_of_a_search(open_dashboard):
     )
     assert wrong == 0
     assert 0 < curves <= inside
+
+
+def test_numbers_of_the_ground_are_offered_and_answered(open_dashboard):
+    page = open_dashboard(query="?ground=rock")
+    open_tab(page, "Decide")
+    for title in PARTS:
+        expect(page.get_by_role("heading", name=title, exact=True)).to_be_visible()
+    offered = page.get_by_label("Across").locator("option")
+    expect(offered.filter(has_text="Ground stiffness")).to_have_count(1)
+    page.wait_for_function("() => Bokeh.documents[0].get_model_by_name('changes')?.data.change.length > 0")
+    wait_until_at_rest(page)
+    page.get_by_role("checkbox", name="A change for each field").click()
+    share = page.get_by_label("Ground stiffness, ± %").first
+    expect(share).to_have_value("10.0")
+    # the box sets its number anew at every key: what is filled in at once stands behind what was there
+    share.press("Control+a")
+    share.press_sequentially("20")
+    expect(share).to_have_value("20")
+    share.press("Enter")
+    design = OPENING.replace(ground=tig.GROUNDS["rock"])
+    changes = dict.fromkeys(tig.decide.sensitivity(design, reference="stiff").fields, 0.1)
+    expected = tig.decide.sensitivity(design, changes=changes | {"ground.stiffness": 0.2}, reference="stiff")
+    row = expected.bands[expected.fields.index("ground.stiffness"), 1]
+    page.wait_for_function(
+        """expected => {
+            const {field, change} = Bokeh.documents[0].get_model_by_name("changes").data
+            const drawn = Array.from(change).filter((_, place) => field[place] == "Ground stiffness")
+            return drawn.length == expected.length
+                && drawn.every((each, band) => Math.abs(each - expected[band]) < 1e-6)
+        }""",
+        arg=row.tolist(),
+    )

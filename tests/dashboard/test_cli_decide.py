@@ -1,5 +1,6 @@
 """Commands that choose between designs print what the core answers, and end with the code that says how."""
 
+import contextlib
 import csv
 import json
 import os
@@ -128,6 +129,46 @@ def test_map_writes_every_point(save, tmp_path, capsys):
     assert float(rows[17]["margin"]) == pytest.approx(margin, abs=0.01)
     assert {float(row["block_mass"]) for row in rows} == {20.0, 37.5, 55.0, 72.5, 90.0}
     assert "of the map complies" in capsys.readouterr().out
+
+
+SPRUNG = BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["soft clay"])
+
+
+def test_map_and_sensitivity_take_vehicle_and_ground_by_path(save, tmp_path, capsys):
+    out = tmp_path / "map.csv"
+    fields = ("ground.stiffness", "suspension.primary_damping")
+    words = ["map", save(design=SPRUNG), *fields, "--points", "3x2", "--range", "ground.stiffness=20e6..80e6"]
+    assert main([*words, "--csv", str(out)]) in (0, 1)
+    expected = tig.decide.design_map(
+        *(SPRUNG, *fields, CEILING),
+        points=(3, 2),
+        ranges={"ground.stiffness": (20e6, 80e6)},
+        reference="stiff",
+    )
+    assert str(expected) in capsys.readouterr().out
+    rows = table(out)
+    assert [row["ground.stiffness"] for row in rows[:3]] == ["2e+07", "4e+07", "8e+07"]
+    assert [row["margin"] for row in rows] == [f"{each:.6g}" for each in expected.figures["margin"].ravel()]
+    assert main(["sensitivity", save(design=SPRUNG)]) == 0
+    said = capsys.readouterr().out
+    assert "suspension.body_mass" in said
+    assert "ground.mass" not in said, "there is none that a share of it could change"
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["map", "ground.stiffness", "speed"], "'speed' is not a single number of this design: give any of"),
+        (["range", "--field", "suspension.stiffness"], "suspension.primary_stiffness"),
+        (["find", "--free", "suspension.stiffness"], "suspension.primary_stiffness"),
+        (["tolerance", "--tolerance", "ground.mass=10%"], "give any of pad_stiffness"),
+    ],
+)
+def test_a_path_that_leads_nowhere_is_told_with_those_that_do(save, capsys, words, message):
+    command, *rest = words
+    with pytest.raises(SystemExit) if command == "find" else contextlib.nullcontext():
+        assert main([command, save(design=SPRUNG), *rest]) == 2
+    assert message in capsys.readouterr().err
 
 
 def test_find_takes_catalogues_and_rails(save, tmp_path, capsys):

@@ -17,13 +17,14 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from trackig_core.arrays import AnyArray, BoolArray, IntArray, RealArray
+from trackig_core.decide.numbers import single_numbers
 from trackig_core.decide.requirements import DEFLECTION, Requirements
 from trackig_core.decide.solving import How, solve_designs
 from trackig_core.decide.words import amount, plain
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
-from trackig_core.track.fields import RANGES, SLIDER_RANGES
+from trackig_core.track.fields import RANGES, SEARCHED_RANGES, SLIDER_RANGES
 from trackig_core.track.rails import RAILS
 
 if TYPE_CHECKING:
@@ -191,9 +192,10 @@ def feasible_ranges(
     reference, summation : str
         Definition of insertion gain, as for :func:`trackig_core.solve`.
     fields : sequence of str, optional
-        Fields to look at; by default all that are single numbers in this design.
+        Fields to look at; by default all of :data:`SLIDER_RANGES` that are single numbers in this design.
+        Those of suspension and ground are named by path, such as ``"ground.stiffness"``.
     ranges : dict of str to (float, float), optional
-        Ranges of some fields [unit of the field], in place of :data:`SLIDER_RANGES`.
+        Ranges of some fields [unit of the field], in place of :data:`SEARCHED_RANGES`.
     **how
         Where the designs are solved; see :class:`How`. It is over before progress could be told.
 
@@ -240,11 +242,6 @@ def feasible_ranges(
     )
 
 
-def single_numbers(design: TrackDesign) -> tuple[str, ...]:
-    """Return the fields of a design that are single numbers: not absent, and not measured over frequency."""
-    return tuple(name for name in SLIDER_RANGES if isinstance(getattr(design, name), float))
-
-
 def searched_ranges(
     design: TrackDesign, fields: Sequence[str] | None, ranges: Ranges | None
 ) -> dict[str, tuple[float, float]]:
@@ -262,13 +259,8 @@ def searched_ranges(
                 f"range of {name} = {brief((low, high))}: give a low end above 0 and a higher one"
             )
         design.replace(**{name: low}), design.replace(**{name: high})
-    wanted = known if fields is None else fields
-    return {name: given.get(name, SLIDER_RANGES[name]) for name in wanted}
-
-
-def is_logarithmic(field: str) -> bool:
-    """Return whether a field spans decades, as stiffnesses do."""
-    return field.endswith("_stiffness")
+    wanted = [name for name in known if name in SLIDER_RANGES] if fields is None else fields
+    return {name: given.get(name, SEARCHED_RANGES[name]) for name in wanted}
 
 
 def at(ends: tuple[float, float], place: float) -> float:
@@ -283,7 +275,7 @@ def _rows(design: TrackDesign, ranges: Ranges, numbers: IntArray, places: RealAr
     """Return columns of designs of which each differs from the base in one field."""
     columns = {}
     for number, (name, (low, high)) in enumerate(ranges.items()):
-        values = np.full(places.size, getattr(design, name))
+        values = np.full(places.size, design.value(name))
         mine = numbers == number
         values[mine] = np.clip(low * (high / low) ** places[mine], low, high)
         columns[name] = values

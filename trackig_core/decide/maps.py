@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Unpack
 import numpy as np
 
 from trackig_core.arrays import BoolArray, RealArray
-from trackig_core.decide.feasible import Ranges, is_logarithmic, searched_ranges
+from trackig_core.decide.feasible import Ranges, searched_ranges
+from trackig_core.decide.numbers import is_logarithmic
 from trackig_core.decide.requirements import WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
 from trackig_core.decide.words import amount, how_much, in_unit, plain, sentence
@@ -114,13 +115,14 @@ def design_map(
     design : TrackDesign
         The design whose fields are varied.
     x_field, y_field : str
-        Two fields that are single numbers in this design.
+        Two fields that are single numbers in this design; those of suspension and ground by path, such as
+        ``"ground.stiffness"``.
     specification : Specification, optional
         Greatest insertion gain per band [dB], for the governing margin.
     figures : sequence of str, optional
         Figures by name, see ``Requirements.values``; by default all but the bands.
     ranges : dict of str to (float, float), optional
-        Ranges of the fields [unit of the field], in place of :data:`SLIDER_RANGES`.
+        Ranges of the fields [unit of the field], in place of :data:`SEARCHED_RANGES`.
     points : (int, int)
         Points along x and y [-].
     source : SourceSpectrum, optional

@@ -41,6 +41,9 @@ PERCENTILES = (5.0, 50.0, 95.0)
 TRIED = 2048
 """Samples from which it is judged what to tighten [-]: the same for all, so that differences show."""
 
+MOST_FACTORS = 12
+"""Tolerances that may vary at once [-]: they have 4096 corners."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ToleranceResult:
@@ -144,7 +147,8 @@ def tolerance(
     specification : Specification
         Greatest insertion gain per band [dB].
     tolerances : dict of str to float or Tolerance
-        By field: a share such as 0.1 for anything within +-10 %, or a :class:`Uniform` or :class:`Normal`.
+        By field, or by path of a number of suspension or ground such as ``"ground.stiffness"``: a share such
+        as 0.1 for anything within +-10 %, or a :class:`Uniform` or :class:`Normal`.
     production : dict of str to sequence, optional
         Measured values by field [unit of the field], row by row of the same specimen.
     samples : int
@@ -174,6 +178,10 @@ def tolerance(
     """
     required = Requirements(specification, None, reference, summation, max_deflection)
     factors = make_factors(design, tolerances, production)
+    if len(factors) > MOST_FACTORS:
+        raise ValueError(
+            f"{len(factors)} tolerances: give at most {MOST_FACTORS}, for every corner of them is solved"
+        )
     if samples < 100:
         raise ValueError(f"samples = {samples}: give 100 or more")
     shares = drawn_shares(len(factors), samples, seed)
@@ -183,7 +191,7 @@ def tolerance(
     margins = required.governing_margin(many)
     complying = int(required.complies(many).sum())
     interval = binomtest(complying, samples).proportion_ci(CONFIDENCE, method="wilson")
-    corner, worst = _worst_corner(design, required, factors)
+    corner, worst = _worst_corner(design, required, factors, how)
     rest = part_of(how, samples / work, 1.0)
     tightened = _tightened(design, required, factors, shares[:tried], rest)
     return ToleranceResult(
@@ -225,10 +233,14 @@ def _tightened(
 
 
 def _worst_corner(
-    design: TrackDesign, required: Requirements, factors: Sequence[Factor]
+    design: TrackDesign, required: Requirements, factors: Sequence[Factor], how: How
 ) -> tuple[TrackDesign, float]:
     """Return the corner of the tolerances that keeps the limits least, and its governing margin [dB]."""
     corners = product(*(factor.corners() for factor in factors))
-    many = solve_many([design.replace(**dict(ChainMap(*corner))) for corner in corners])
+    many = solve_many(
+        [design.replace(**dict(ChainMap(*corner))) for corner in corners],
+        threads=how.get("threads"),
+        cancelled=how.get("cancelled"),
+    )
     worst = int(required.slacks(many).min(axis=-1).argmin())
     return many.design(worst), float(required.governing_margin(many)[worst])

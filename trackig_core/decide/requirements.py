@@ -15,7 +15,7 @@ import numpy as np
 from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.bands import BAND_LABELS, decibels
 from trackig_core.frequency_domain.batch import BatchSolution
-from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice
+from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, check_reference
 from trackig_core.levels.source import A_WEIGHTING, SourceSpectrum
 from trackig_core.levels.specification import DEFLECTION_TOLERANCE, LEVEL_TOLERANCE, Specification
 from trackig_core.track.design import TrackDesign
@@ -188,6 +188,7 @@ class Requirements:
 
     def check_figures(self, figures: Collection[str], design: TrackDesign) -> None:
         """Raise a ValueError that says what is missing if a figure of a design cannot be computed."""
+        check_reference(design, self.reference)
         known = self.figures(design)
         for name in figures:
             if name in known or name in BAND_LABELS:

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 
 from trackig_core.arrays import AnyArray, BoolArray, IntArray, RealArray
-from trackig_core.decide.feasible import Ranges, is_logarithmic, searched_ranges
+from trackig_core.decide.feasible import Ranges, searched_ranges
+from trackig_core.decide.numbers import is_logarithmic, single_numbers
 from trackig_core.decide.requirements import DEFLECTION, MARGIN, UNITS, Requirements
 from trackig_core.decide.solving import How, joined, solve_designs
 from trackig_core.decide.tolerances import drawn_shares
@@ -185,8 +186,9 @@ def find(
     specification : Specification
         Greatest insertion gain per band [dB], and deflection [m].
     free : sequence of str, or dict of str to (float, float)
-        Fields that are free, with their ranges [unit of the field]; by default :data:`SLIDER_RANGES`. A
-        stated static stiffness keeps its ratio to the dynamic one.
+        Fields that are free, with their ranges [unit of the field]; by default :data:`SEARCHED_RANGES`. Those
+        of suspension and ground are named by path, such as ``"ground.stiffness"``. A stated static stiffness
+        keeps its ratio to the dynamic one.
     choices : dict of str to sequence, optional
         What is chosen from a catalogue: values by field, or by any other name dicts of several fields at
         once, each of which may have a ``"cost"``, and with the name of a ``"component"`` stands for the whole
@@ -338,13 +340,13 @@ class _Space:
         """Return the place that is nearest to a design (names,)."""
         place = []
         for name, (low, high) in self.ranges.items():
-            value = min(max(getattr(design, name), low), high)
+            value = min(max(design.value(name), low), high)
             logarithmic = is_logarithmic(name)
             place.append(
                 np.log(value / low) / np.log(high / low) if logarithmic else (value - low) / (high - low)
             )
         for values in self.choices.values():
-            same = [all(getattr(design, k) == v for k, v in _fields(each).items()) for each in values]
+            same = [all(design.value(k) == v for k, v in _fields(each).items()) for each in values]
             place.append(((same.index(True) if any(same) else 0) + 0.5) / len(values))
         return np.array(place)
 
@@ -407,9 +409,9 @@ class _Sought:
 
     def check(self, design: TrackDesign, space: _Space) -> None:
         """Raise a ValueError if an objective cannot be computed."""
-        numbers = [
-            each.name for each in dataclasses.fields(design) if isinstance(getattr(design, each.name), float)
-        ]
+        fields = [each.name for each in dataclasses.fields(design)]
+        numbers = [name for name in fields if isinstance(design.value(name), float)]
+        numbers += [name for name in single_numbers(design) if name not in fields]
         for name in self.cost:
             if name not in numbers:
                 raise ValueError(f"cost of {brief(name)}: give a cost per unit of {', '.join(numbers)}")
@@ -437,11 +439,11 @@ class _Sought:
     def _value(self, many: BatchSolution, name: str, prices: RealArray) -> RealArray:
         if name == COST:
             for each, per_unit in self.cost.items():
-                prices = prices + per_unit * many.columns[each].astype(float)
+                prices = prices + per_unit * many.column(each).astype(float)
             return prices
         if name in UNITS:
             return self.required.values(many, name)
-        return many.columns[name].astype(float)
+        return many.column(name).astype(float)
 
     def minimised(self, values: RealArray) -> RealArray:
         """Return objectives that are the better the smaller they are."""

@@ -20,6 +20,7 @@ from scipy.stats import sobol_indices
 
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_LABELS
+from trackig_core.decide.numbers import changeable_numbers
 from trackig_core.decide.requirements import MARGIN, UNITS, WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
 from trackig_core.decide.tolerances import (
@@ -35,7 +36,6 @@ from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
-from trackig_core.track.fields import SCATTERED
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 
 if TYPE_CHECKING:
@@ -133,6 +133,7 @@ def sensitivity(
         Greatest insertion gain per band [dB], for the governing margin.
     changes : float or dict of str to float
         Change of every field, or of some by name, up and down [-]; a measured curve changes as a whole.
+        Numbers of suspension and ground are named by path, such as ``"ground.stiffness"``.
     source : SourceSpectrum, optional
         Levels on the reference track [dB], for the A-weighted level.
     max_deflection : float, optional
@@ -155,7 +156,7 @@ def sensitivity(
     required = Requirements(specification, source, reference, summation, max_deflection)
     changed_by = _changes(design, changes)
     changed = [
-        design.replace(**{name: _scaled(getattr(design, name), factor)})
+        design.replace(**{name: _scaled(design.value(name), factor)})
         for name, change in changed_by.items()
         for factor in (1 - change, 1 + change)
     ]
@@ -173,7 +174,7 @@ def sensitivity(
 
 def _changes(design: TrackDesign, changes: float | Mapping[str, float]) -> dict[str, float]:
     """Return the change of each field, checked."""
-    known = [name for name in SCATTERED if getattr(design, name) is not None]
+    known = changeable_numbers(design)
     given = dict(changes) if isinstance(changes, Mapping) else dict.fromkeys(known, changes)
     for name, change in given.items():
         if name not in known:

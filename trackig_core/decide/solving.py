@@ -83,6 +83,8 @@ def part_of(how: How, begin: float, end: float) -> How:
 def joined(parts: Sequence[BatchSolution]) -> BatchSolution:
     """Return solved designs, part after part along the first axis, as one."""
     values: dict[str, Any] = {}
+    if any(part.stiff_ratio is not None for part in parts):
+        parts = [dataclasses.replace(part, stiff_ratio=part._stiff_ratio) for part in parts]
     for field in dataclasses.fields(BatchSolution):
         first = getattr(parts[0], field.name)
         if isinstance(first, np.ndarray):

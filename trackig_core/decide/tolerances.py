@@ -18,9 +18,10 @@ from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
 
 from trackig_core.arrays import AnyArray, RealArray
+from trackig_core.decide.numbers import changeable_numbers
 from trackig_core.names import brief
 from trackig_core.track.design import REFERENCE_FREQUENCY, Rail, TrackDesign
-from trackig_core.track.fields import RANGES, SCATTERED, DesignError
+from trackig_core.track.fields import RANGES, DesignError
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 
 CONFIDENCE = 0.95
@@ -199,7 +200,8 @@ def make_factors(
     design : TrackDesign
         The design as it is stated.
     tolerances : dict of str to float or Tolerance
-        By field: a share such as 0.1 for anything within +-10 %, or a :class:`Uniform` or :class:`Normal`.
+        By field, or by path of a number of suspension or ground: a share such as 0.1 for anything within
+        +-10 %, or a :class:`Uniform` or :class:`Normal`.
     production : dict of str to sequence, optional
         Measured values by field [unit of the field], row by row of the same specimen, as a pandas.DataFrame
         or a dict; numbers or measured curves.
@@ -229,13 +231,13 @@ def make_factors(
 
 
 def _tolerance_factor(design: TrackDesign, name: str, tolerance: Tolerance) -> Factor:
-    stated = getattr(design, name) if name in SCATTERED else None
-    if not isinstance(stated, float):
-        numbers = [each for each in SCATTERED if isinstance(getattr(design, each), float)]
+    numbers = [each for each in changeable_numbers(design) if isinstance(design.value(each), float)]
+    if name not in numbers:
         raise ValueError(
-            f"{brief(name)} is not a single number of this design, so it has no tolerance: give any of "
-            f"{', '.join(numbers)}"
+            f"{brief(name)} is not a single number of this design above zero, so it has no tolerance: give "
+            f"any of {', '.join(numbers)}"
         )
+    stated = design.value(name)
     for factor in tolerance.factors(np.array([0.0, 1.0])):
         value = stated * float(factor)
         try:

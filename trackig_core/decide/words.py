@@ -3,6 +3,7 @@
 from trackig_core.decide.requirements import DEFLECTION, UNITS
 from trackig_core.track.fields import RANGES
 
+_PREFIXED = ("N/m", "N s/m")
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 
 
@@ -24,7 +25,7 @@ def amount(field: str, value: float, figures: int = 4) -> str:
         The value in words.
     """
     unit = RANGES[field][2]
-    if unit == "N/m":
+    if unit in _PREFIXED:
         for size, prefix in _PREFIXES:
             if abs(value) >= size:
                 return f"{value / size:.{figures}g} {prefix}{unit}"
@@ -32,8 +33,8 @@ def amount(field: str, value: float, figures: int = 4) -> str:
 
 
 def plain(field: str) -> str:
-    """Return the name of a field as it is spoken, such as ``"boot stiffness"``."""
-    return field.replace("_", " ")
+    """Return the name of a field as it is spoken, such as ``"boot stiffness"`` or ``"ground damping"``."""
+    return field.replace("_", " ").replace(".", " ")
 
 
 def percent(share: float) -> str:

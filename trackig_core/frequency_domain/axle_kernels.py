@@ -161,7 +161,7 @@ def axle_energy(
     on, back = np.empty((2, 3 * (beyond - before + 1)), np.complex128), np.empty((2, 3), np.complex128)
     matrix = np.empty((count, count), np.complex128)
     roughness = np.eye(count, columns).astype(np.complex128)
-    outwards = np.empty((2, 2), np.complex128)
+    forces, outwards = np.empty((count, columns), np.complex128), np.empty((2, 2), np.complex128)
     for i in range(frequency.size):
         angular = 2.0 * math.pi * frequency[i]
         support, passed = supports(track, surroundings, angular)
@@ -181,7 +181,10 @@ def axle_energy(
         for row in range(delays.size):
             angle = angular * delays[row]
             roughness[row, 0] = complex(math.cos(angle), -math.sin(angle))
-        forces = np.linalg.solve(matrix, roughness)
+        if count == 1:
+            forces[0, 0] = roughness[0, 0] / matrix[0, 0]
+        else:
+            forces[:] = np.linalg.solve(matrix, roughness)
         total, summed = 0.0, 0.0
         for column in range(columns):
             outwards[:] = 0.0

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,11 +43,14 @@ from trackig_core.track.damping_table import interpolated_terms
 from trackig_core.track.design import (
     ELEMENTS_PER_BAY,
     ONE_AXLE,
+    PATHS,
     RANGES,
     REFERENCE_FREQUENCY,
     DesignError,
     Rail,
     TrackDesign,
+    numbers_by_part,
+    with_numbers,
 )
 from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, check_number
 from trackig_core.track.static_stiffness import stand_in
@@ -58,6 +61,8 @@ if TYPE_CHECKING:
 
 Columns: TypeAlias = dict[str, AnyArray]
 """Fields of many designs by name: arrays of numbers, or of objects."""
+
+_Made = TypeVar("_Made")
 
 Row: TypeAlias = int | tuple[int, ...]
 Shape: TypeAlias = tuple[int, ...]
@@ -77,6 +82,8 @@ CHUNK = 256
 INTERVALS_PER_BAND = 6
 """Intervals per band from which spectra are refined [-]. Half as many as those of one exact solve cost
 0.0002 dB in 99 designs of 100 and 0.003 dB at worst, since refinement finds every peak from either."""
+
+_PER_DESIGN = (len(SUMMATIONS), len(BAND_CENTRES))
 
 _BAND_CUBES = np.diff(BAND_EDGES**3) / 3
 
@@ -106,6 +113,9 @@ class BatchSolution:
         Definition of :attr:`insertion_gain`.
     wheel_load : float [N]
         Static load of the wheel, for :attr:`rail_deflection`.
+    stiff_ratio : numpy.ndarray (..., 2, 21) [-] or None
+        Band energy of the very stiff reference track over that of the exact rigid track; None where no design
+        stands on ground that yields, and it is computed when it is asked for.
     """
 
     columns: Columns
@@ -117,6 +127,7 @@ class BatchSolution:
     reference: str = "line"
     summation: str = "energy"
     wheel_load: float = DEFAULT_WHEEL_LOAD
+    stiff_ratio: RealArray | None = None
 
     @property
     def band_centres(self) -> RealArray:
@@ -162,20 +173,10 @@ class BatchSolution:
 
     @cached_property
     def _stiff_ratio(self) -> RealArray:
-        """Band energy of the very stiff reference tracks over that of the exact rigid track (..., 2, 21) [-].
-
-        Designs that differ in supports alone have the same reference, which is computed once.
-        """
-        columns = [self.columns[name].flat for name in STIFF_FIELDS]
-        known: dict[tuple[object, ...], RealArray] = {}
-        rows = []
-        for place, key in enumerate(zip(*columns, strict=True)):
-            if key not in known:
-                row = {name: values.flat[place] for name, values in self.columns.items()}
-                known[key] = _stiff_over_rigid(_design(row))
-            rows.append(known[key])
-        shape = self.loaded_track.shape
-        return np.array(rows).reshape(*shape, len(SUMMATIONS), len(BAND_CENTRES))
+        """Band energy of the very stiff reference tracks, whenever it was computed (..., 2, 21) [-]."""
+        if self.stiff_ratio is not None:
+            return self.stiff_ratio
+        return _stiff_ratios(self.columns).reshape(*self.loaded_track.shape, *_PER_DESIGN)
 
     @cached_property
     def rail_deflection(self) -> RealArray:
@@ -191,6 +192,26 @@ class BatchSolution:
         """Whether the rail sinks at least so far, a dynamic stiffness standing in for a static one (...)."""
         pad, boot = (_missing(self.columns[f"{part}_static_stiffness"]) for part in ("pad", "boot"))
         return pad | (boot & ~_missing(self.columns["boot_stiffness"]))
+
+    def column(self, name: str) -> AnyArray:
+        """Return a field of all designs, or a number of their suspensions or grounds.
+
+        Parameters
+        ----------
+        name : str
+            Name of a field, or path of a number, such as ``"ground.stiffness"``.
+
+        Returns
+        -------
+        numpy.ndarray (...)
+            Values [unit of the field]; NaN where a design has no such number of a part.
+        """
+        part, _, number = name.partition(".")
+        values = self.columns[part]
+        if not number:
+            return values
+        found = [getattr(each, number, None) for each in values.flat]
+        return np.array(found, dtype=float).reshape(values.shape)
 
     def design(self, row: Row) -> TrackDesign:
         """Return one of the designs.
@@ -226,8 +247,12 @@ class BatchSolution:
         """
         import pandas as pd
 
-        shown = [name for name in FIELDS if name not in SURROUNDINGS or _is_on(name, self.columns[name])]
-        columns = {name: self.columns[name].ravel() for name in shown}
+        columns: Columns = {}
+        for name in FIELDS:
+            if name not in SURROUNDINGS or _is_on(name, self.columns[name]):
+                paths = [path for path in PATHS if path.partition(".")[0] == name]
+                shown = {each: self.column(each).ravel() for each in paths or [name]}
+                columns |= {each: values for each, values in shown.items() if not _is_nowhere(values)}
         columns["rail"] = np.array([rail.name for rail in columns["rail"]])
         columns["loaded_track"] = self.loaded_track.ravel()
         columns["coupled_block"] = self.coupled_block.ravel()
@@ -273,8 +298,9 @@ def solve_many(
     wheel_load : float
         Static load of the wheel, which sinks the rail by ``rail_deflection`` [N].
     **arrays : array_like
-        Values by name of a field of the design [unit of the field]: numbers, rails or measured curves, which
-        are broadcast against each other as NumPy does.
+        Values by name of a field of the design, or by path of a number of its suspension or ground as in
+        ``**{"ground.stiffness": array}`` [unit of the field]: numbers, rails or measured curves, which are
+        broadcast against each other as NumPy does.
 
     Returns
     -------
@@ -308,9 +334,12 @@ def solve_many(
         "loaded_track": np.empty(count),
         "coupled_block": np.empty(count),
         "resolved": np.empty(count, dtype=bool),
-        "energy_ratio": np.empty((count, 2, len(BAND_CENTRES)), dtype=np.float32),
+        "energy_ratio": np.empty((count, *_PER_DESIGN), dtype=np.float32),
         "line_ratio": np.empty((count, 2)),
     }
+    yields = _is_on("ground", columns["ground"])
+    if yields:  # there is no other reference
+        rows["stiff_ratio"] = np.empty((count, *_PER_DESIGN))
 
     def solve_chunk(begin: int) -> None:
         chunk = slice(begin, min(begin + CHUNK, count))
@@ -318,6 +347,8 @@ def solve_many(
         try:
             for name, values in _solved(within).items():
                 rows[name][chunk] = values
+            if yields:
+                rows["stiff_ratio"][chunk] = _stiff_ratios(within)
         except DesignError as error:
             raise _in_row(error, begin + cast("int", error.row), shape) from None  # it counts from the chunk
 
@@ -399,14 +430,17 @@ def _varied(base: TrackDesign, arrays: Mapping[str, object]) -> Columns:
             _check_numbers(name, values)
     if set(objects) - {"rail"}:
         for place in range(int(np.prod(shape))):
-            row = {name: values.flat[place] for name, values in given.items()}
+            row = {name: _plain(values.flat[place]) for name, values in given.items()}
             _checked(partial(base.replace, **row), place, shape)
     elif objects:
         rails = objects["rail"]
         for place, rail in enumerate(rails.flat):
             if not isinstance(rail, Rail):
                 raise _in_row(DesignError("rail", rail, "a Rail, such as RAILS['60']"), place, shape)
-    columns = {name: np.broadcast_to(_column(getattr(base, name), name), shape) for name in FIELDS} | given
+    columns = {name: np.broadcast_to(_column(getattr(base, name), name), shape) for name in FIELDS}
+    columns |= {name: values for name, values in given.items() if name in FIELDS}
+    for part, changes in numbers_by_part(given).items():
+        columns[part] = _changed_part(columns[part], part, changes)
     if "boot_static_stiffness" not in given:  # it leaves with its boot
         missing = _missing(columns["boot_stiffness"])
         if missing.any():
@@ -414,6 +448,16 @@ def _varied(base: TrackDesign, arrays: Mapping[str, object]) -> Columns:
             static[missing] = None
             columns["boot_static_stiffness"] = static
     return columns
+
+
+def _changed_part(whole: AnyArray, part: str, changes: Mapping[str, AnyArray]) -> AnyArray:
+    """Return a column of suspensions or grounds (...) with numbers (...) of theirs changed."""
+    changed = np.empty(whole.shape, dtype=object)
+    rows = zip(whole.flat, *(values.flat for values in changes.values()), strict=True)
+    for place, (each, *values) in enumerate(rows):
+        row = dict(zip(changes, map(_plain, values), strict=True))
+        changed.flat[place] = _checked(partial(with_numbers, each, part, row), place, whole.shape)
+    return changed
 
 
 def _first_row(base: TrackDesign, given: Columns) -> None:
@@ -425,9 +469,10 @@ def _first_row(base: TrackDesign, given: Columns) -> None:
     )
 
 
-def _checked(make: Callable[[], object], place: int, shape: Shape) -> None:
+def _checked(make: Callable[[], _Made], place: int, shape: Shape) -> _Made:
+    """Return what is made, or raise a DesignError that names the row."""
     try:
-        make()
+        return make()
     except DesignError as error:
         raise _in_row(error, place, shape) from None
 
@@ -461,6 +506,11 @@ def _missing(values: AnyArray) -> BoolArray:
     if values.dtype != object:
         return np.zeros(values.shape, dtype=bool)
     return np.array([value is None for value in values.flat], dtype=bool).reshape(values.shape)
+
+
+def _is_nowhere(values: AnyArray) -> bool:
+    """Return whether no design has such a number."""
+    return values.dtype == float and bool(np.isnan(values).all())
 
 
 def _static(columns: Columns, part: str) -> RealArray:
@@ -536,6 +586,21 @@ def _solved_alone(columns: Columns, row: int) -> dict[str, Any]:
         "energy_ratio": np.array([integrate_bands(spectrum.frequency, each) for each in energies]) / rigid,
         "line_ratio": lines,
     }
+
+
+def _stiff_ratios(columns: Columns) -> RealArray:
+    """Return band energy of very stiff reference tracks over that of the exact rigid track (n, 2, 21) [-].
+
+    Designs that differ in supports alone have the same reference, which is computed once.
+    """
+    known: dict[tuple[object, ...], RealArray] = {}
+    rows = []
+    for place, key in enumerate(zip(*(columns[name].flat for name in STIFF_FIELDS), strict=True)):
+        if key not in known:
+            row = {name: values.flat[place] for name, values in columns.items()}
+            known[key] = _stiff_over_rigid(_design(row))
+        rows.append(known[key])
+    return np.array(rows).reshape(-1, *_PER_DESIGN)
 
 
 def _stiff_over_rigid(design: TrackDesign) -> RealArray:

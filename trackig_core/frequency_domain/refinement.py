@@ -177,7 +177,7 @@ def _grounded_loss(model: TrackModel) -> tuple[str, object]:
     """
     ground = model.design.ground
     if ground is not None and ground.mass > 0:
-        return "ground_damping", ground.damping
+        return "ground.damping", ground.damping
     field = "boot_loss_factor" if model.design.two_stage else "pad_loss_factor"
     return field, getattr(model.design, field)
 

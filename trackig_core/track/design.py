@@ -12,7 +12,7 @@ equal designs are equal keys.
 import dataclasses
 import difflib
 import numbers
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -82,6 +82,48 @@ def check_axles(positions: object, spacing: float) -> tuple[float, ...]:
         apart = f"positions of which no two fall on the same rail element, {spacing / ELEMENTS_PER_BAY:.3g} m"
         raise DesignError("axle_positions", checked, apart)
     return checked
+
+
+PATHS = tuple(name for name in RANGES if "." in name)
+"""Paths of the numbers of a design's suspension and ground, such as ``"ground.stiffness"``."""
+
+
+def numbers_by_part(values: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the values that are given by path, by part of a design and then by number."""
+    found: dict[str, dict[str, Any]] = {}
+    for path, value in values.items():
+        part, _, number = path.partition(".")
+        if number:
+            found.setdefault(part, {})[number] = value
+    return found
+
+
+def with_numbers(whole: Any, part: str, numbers: Mapping[str, Any]) -> Any:
+    """Return a suspension or a ground with some of its numbers changed.
+
+    Parameters
+    ----------
+    whole : Suspension or Ground or None
+        What the design has.
+    part : str
+        The design's field.
+    numbers : dict
+        Values by name of a number [its unit].
+
+    Returns
+    -------
+    Suspension or Ground
+        The changed, newly checked part.
+
+    Raises
+    ------
+    DesignError
+        If the design has no such part, or a value is not allowed.
+    """
+    if whole is None:
+        number, value = next(iter(numbers.items()))
+        raise DesignError(f"{part}.{number}", value, f"a {part} too: the design has none")
+    return dataclasses.replace(whole, **numbers)
 
 
 def axle_elements(positions: Iterable[float], spacing: float) -> tuple[int, ...]:
@@ -251,13 +293,46 @@ class TrackDesign:
         """Whether blocks and boots stand between pads and ground."""
         return self.block_mass is not None
 
+    def value(self, name: str) -> Any:
+        """Return a field, or a number of the suspension or the ground.
+
+        Parameters
+        ----------
+        name : str
+            Name of a field, or path of a number, such as ``"suspension.bogie_mass"``.
+
+        Returns
+        -------
+        object
+            The value [unit of the field]; None where the design has no such part.
+
+        Raises
+        ------
+        DesignError
+            If there is no such field or number.
+        """
+        self._check_name(name, None)
+        field, _, number = name.partition(".")
+        found = getattr(self, field)
+        return getattr(found, number) if number and found is not None else found
+
+    def _check_name(self, name: str, value: object) -> None:
+        """Raise a DesignError if a name is none of a field or of a part's number."""
+        fields = [each.name for each in dataclasses.fields(self)]
+        if name not in fields and name not in PATHS:
+            near = difflib.get_close_matches(name, [*fields, *PATHS], n=1)
+            hint = f"'{near[0]}'" if near else f"one of {', '.join((*fields, *PATHS))}"
+            raise DesignError(name, value, f"a field that exists: {hint}")
+
     def replace(self, **changes: Any) -> "TrackDesign":
         """Return a copy of this design with some fields changed.
 
         Parameters
         ----------
         **changes
-            New values by field name [unit of the field]. A static stiffness leaves with its boot.
+            New values by field name, or by path of a number of the suspension or the ground, as in
+            ``replace(**{"ground.stiffness": 100e6})`` [unit of the field]. A static stiffness leaves with its
+            boot.
 
         Returns
         -------
@@ -267,14 +342,14 @@ class TrackDesign:
         Raises
         ------
         DesignError
-            If a field does not exist or a value is not allowed.
+            If a field does not exist, a value is not allowed, or the design has no part with such a number.
         """
-        names = [each.name for each in dataclasses.fields(self)]
-        for field, value in changes.items():
-            if field not in names:
-                near = difflib.get_close_matches(field, names, n=1)
-                hint = f"'{near[0]}'" if near else f"one of {', '.join(names)}"
-                raise DesignError(field, value, f"a field that exists: {hint}")
+        for name, value in changes.items():
+            self._check_name(name, value)
+        for part, values in numbers_by_part(changes).items():
+            for number in values:
+                del changes[f"{part}.{number}"]
+            changes[part] = with_numbers(changes.get(part, getattr(self, part)), part, values)
         if changes.get("boot_stiffness", self.boot_stiffness) is None:
             changes.setdefault("boot_static_stiffness", None)
         return dataclasses.replace(self, **changes)

@@ -18,7 +18,7 @@ class Field:
     Attributes
     ----------
     name : str
-        Name of the attribute.
+        Name of the attribute; of a part of a design, such as its suspension, the path to it.
     unit : str
         SI unit; empty if it has none.
     low, high : float
@@ -68,19 +68,19 @@ DEFAULT_WHEEL_LOAD = 85e3
 """Static load of a wheel where none is given [N]: half an axle load of 17 t."""
 
 SUSPENSION_FIELDS = (
-    Field("primary_stiffness", "N/m", 1e3, 1e9, "primary_stiffness_N_per_m"),
-    Field("primary_damping", "N s/m", 0.0, 1e7, "primary_damping_N_s_per_m"),
-    Field("bogie_mass", "kg", 1.0, 1e5, "bogie_mass_kg"),
-    Field("secondary_stiffness", "N/m", 1e3, 1e9, "secondary_stiffness_N_per_m"),
-    Field("secondary_damping", "N s/m", 0.0, 1e7, "secondary_damping_N_s_per_m"),
-    Field("body_mass", "kg", 1.0, 1e5, "body_mass_kg"),
+    Field("suspension.primary_stiffness", "N/m", 1e3, 1e9, "primary_stiffness_N_per_m"),
+    Field("suspension.primary_damping", "N s/m", 0.0, 1e7, "primary_damping_N_s_per_m"),
+    Field("suspension.bogie_mass", "kg", 1.0, 1e5, "bogie_mass_kg"),
+    Field("suspension.secondary_stiffness", "N/m", 1e3, 1e9, "secondary_stiffness_N_per_m"),
+    Field("suspension.secondary_damping", "N s/m", 0.0, 1e7, "secondary_damping_N_s_per_m"),
+    Field("suspension.body_mass", "kg", 1.0, 1e5, "body_mass_kg"),
 )
 """Numbers of a suspension."""
 
 GROUND_FIELDS = (
-    Field("ground_stiffness", "N/m", 1e5, 1e13, "stiffness_N_per_m"),
-    Field("ground_damping", "N s/m", 0.0, 1e9, "damping_N_s_per_m"),
-    Field("ground_mass", "kg", 0.0, 1e5, "mass_kg"),
+    Field("ground.stiffness", "N/m", 1e5, 1e13, "stiffness_N_per_m"),
+    Field("ground.damping", "N s/m", 0.0, 1e9, "damping_N_s_per_m"),
+    Field("ground.mass", "kg", 0.0, 1e5, "mass_kg"),
 )
 """Numbers of the ground under a support."""
 
@@ -108,7 +108,6 @@ RANGES = {
         *GROUND_FIELDS,
         *AXLE_FIELDS,
         *_HALF_SPACE_FIELDS,
-        WHEELBASE,
     )
 }
 """Lowest and highest value, and unit, of each number by name."""
@@ -123,11 +122,28 @@ SLIDER_RANGES = {
     "wheel_mass": (200.0, 1500.0),
     "contact_stiffness": (200e6, 5000e6),
 }
-"""Lowest and highest value of each number that a designer chooses from [SI]: what sliders offer, and what is
-searched unless other ranges are given."""
+"""Lowest and highest value of each number that a designer chooses from [SI]: what sliders offer."""
 
-SCATTERED = (*SLIDER_RANGES, "pad_static_stiffness", "boot_static_stiffness")
-"""Numbers of a design that production scatters and that may be changed by a share of themselves."""
+AROUND_RANGES = {
+    "suspension.primary_stiffness": (300e3, 6e6),
+    "suspension.primary_damping": (1e3, 100e3),
+    "suspension.bogie_mass": (200.0, 15e3),
+    "suspension.secondary_stiffness": (50e3, 2e6),
+    "suspension.secondary_damping": (1e3, 100e3),
+    "suspension.body_mass": (1e3, 15e3),
+    "speed": (5.0, 100.0),
+    "ground.stiffness": (10e6, 10e9),
+    "ground.damping": (10e3, 5e6),
+    "ground.mass": (1.0, 500.0),
+}
+"""The same of each number of what stands on and under a track [SI]: from vehicles softly sprung to laden
+wagons, from less than soft clay to more than rock."""
+
+SEARCHED_RANGES = SLIDER_RANGES | AROUND_RANGES
+"""What is searched of each number unless other ranges are given [SI]."""
+
+SCATTERED = (*SLIDER_RANGES, "pad_static_stiffness", "boot_static_stiffness", *AROUND_RANGES)
+"""Numbers of a design that scatter, and that may be changed by a share of themselves."""
 
 
 class DesignError(ValueError):

@@ -37,7 +37,7 @@ class Ground:
     def __post_init__(self) -> None:
         """Check every value once."""
         for name in ("stiffness", "damping", "mass"):
-            object.__setattr__(self, name, check_number(f"ground_{name}", getattr(self, name)))
+            object.__setattr__(self, name, check_number(f"ground.{name}", getattr(self, name)))
 
     @classmethod
     def half_space(

@@ -62,9 +62,11 @@ class Suspension:
         missing = [name for name in names[3:] if getattr(self, name) is None]
         if len(missing) in (1, 2):
             together = "secondary stiffness, secondary damping and body mass come together"
-            raise DesignError(missing[0], None, f"a value too, or leave out all three: {together}")
+            raise DesignError(
+                f"suspension.{missing[0]}", None, f"a value too, or leave out all three: {together}"
+            )
         for name in names[:3] if missing else names:
-            object.__setattr__(self, name, check_number(name, getattr(self, name)))
+            object.__setattr__(self, name, check_number(f"suspension.{name}", getattr(self, name)))
 
     @property
     def secondary(self) -> tuple[float, float, float]:

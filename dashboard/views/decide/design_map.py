@@ -5,13 +5,18 @@ import panel as pn
 import trackig_core as tig
 from dashboard import theme
 from dashboard.compute.document import NextTick
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.decide import MapFigure
 from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
+from dashboard.session.surroundings import is_simplified
 from dashboard.views.components import bokeh_pane
 from dashboard.views.decide.asked import NO_SPECIFICATION, Asked, said
-from dashboard.views.decide.inputs import choice, number_options
+from dashboard.views.decide.inputs import choice, number_options, offer
 from trackig_core.decide.words import how_much, sentence
+
+SURROUNDED_POINTS = [80, 80]
+"""Points along both fields of a design with a vehicle, several axles or ground that yields [-]: each takes 1
+to 2 ms of a processor, where one of the simplified model takes 0.05 ms."""
 
 
 class Map(Asked):
@@ -29,7 +34,7 @@ class Map(Asked):
         self.x, self.y = (
             choice(
                 label=words,
-                options=number_options(),
+                options=number_options(self.assessment.current.design),
                 value=name,
                 width=200,
             )
@@ -51,6 +56,11 @@ class Map(Asked):
         self.button.label = "Draw the map"
         self.figure.param.watch(self.ask_again, "value")
 
+    def offer(self):
+        """Offer the numbers that the current design has."""
+        for box in (self.x, self.y):
+            offer(box, number_options(self.assessment.current.design))
+
     def ask_again(self, *_):
         """Draw another figure of a map that was asked for."""
         if self.inquiry.asked is not None:
@@ -65,7 +75,9 @@ class Map(Asked):
         if specification is not None and specification.rail_deflection_limit is not None:
             edges.append("deflection")
         figures = list(dict.fromkeys([self.figure.value, *edges]))
-        return {"x_field": self.x.value, "y_field": self.y.value, "figures": figures}
+        settings = {"x_field": self.x.value, "y_field": self.y.value, "figures": figures}
+        simplified = is_simplified(self.assessment.current.design)
+        return settings if simplified else settings | {"points": SURROUNDED_POINTS}
 
     def show(self, result):
         """Draw the map."""
@@ -81,7 +93,7 @@ class Map(Asked):
 
     def words(self, result):
         """Return the answer in one sentence."""
-        x, y = (FIELDS[name].label.lower() for name in (result.x_field, result.y_field))
+        x, y = (ASKED_FIELDS[name].label.lower() for name in (result.x_field, result.y_field))
         if result.complies is None:
             return f"{result.x.size} times {result.y.size} designs over {x} and {y}."
         share = float(result.complies.mean())
@@ -119,7 +131,7 @@ class Map(Asked):
     def _tapped(self, x, y):
         result = self.inquiry.result
         if result is not None and x is not None and y is not None:
-            values = (FIELDS[result.x_field].factor * x, FIELDS[result.y_field].factor * y)
+            values = (ASKED_FIELDS[result.x_field].factor * x, ASKED_FIELDS[result.y_field].factor * y)
             self._take(result.design_at(*values))
 
     def build(self):

@@ -6,7 +6,7 @@ import panel as pn
 
 from dashboard import theme
 from dashboard.compute.feasibility import where
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS
 from dashboard.session.answers import with_unit
 from dashboard.views.components import caption, panel
 from dashboard.views.decide.asked import NO_SPECIFICATION, Asked, scrolled
@@ -44,9 +44,9 @@ class HowFar(Asked):
                 f", its rail sinking {1e3 * result.deflection:.2f} of {1e3 * result.deflection_limit:.2f} mm"
             )
         ways = [
-            f"{FIELDS[name].label.lower()} {where(result, name)}"
+            f"{ASKED_FIELDS[name].label.lower()} {where(result, name)}"
             for name in result
-            if result[name] and name in FIELDS
+            if result[name] and name in ASKED_FIELDS
         ]
         if result.complies:
             return f"{said}."
@@ -57,10 +57,10 @@ class HowFar(Asked):
     def show(self, result):
         """List the ranges."""
         rows = "".join(
-            f"<tr><th scope='row'>{html.escape(FIELDS[name].label)}</th>"
-            f"<td>{with_unit(name, getattr(result.design, name))}</td><td>{where(result, name)}</td></tr>"
+            f"<tr><th scope='row'>{html.escape(ASKED_FIELDS[name].label)}</th>"
+            f"<td>{with_unit(name, result.design.value(name))}</td><td>{where(result, name)}</td></tr>"
             for name in result
-            if name in FIELDS
+            if name in ASKED_FIELDS
         )
         heads = "<tr><th>All others held</th><th>now</th><th>complies</th></tr>"
         self.table.object = scrolled(

@@ -13,7 +13,7 @@ from dashboard.figures.decide import PercentileFigure
 from dashboard.persistence.samples import SamplesError, read_samples
 from dashboard.views.components import bokeh_pane, caption, panel
 from dashboard.views.decide.asked import BUTTON, Asked, scrolled
-from dashboard.views.decide.inputs import choice, factor_label, is_number, percent_box, seed_box
+from dashboard.views.decide.inputs import ShareBoxes, choice, factor_label, is_number, seed_box
 
 USUAL_TOLERANCES = {
     "pad_stiffness": 15.0,
@@ -34,7 +34,7 @@ class HowSure(Asked):
     def __init__(self, snapshot, exchange, production):
         super().__init__(snapshot, exchange)
         self._production, self._specimens = production, {}
-        self.tolerances = {name: percent_box(name, share) for name, share in USUAL_TOLERANCES.items()}
+        self.tolerances = ShareBoxes(USUAL_TOLERANCES, 0.0, exchange)
         self.shape = choice(
             label="Production",
             options={"anything within": "uniform", "bell curve, ± two deviations": "normal"},
@@ -90,7 +90,7 @@ class HowSure(Asked):
 
     def _show_boxes(self):
         self.forget.visible = bool(self._specimens)
-        for name, box in self.tolerances.items():
+        for name, box in self.tolerances.boxes.items():
             box.disabled = name in self._specimens
 
     def _tell(self, words, kind):
@@ -99,14 +99,18 @@ class HowSure(Asked):
     def _draw_in_explore(self, event):
         self._production.wanted = event.new
 
+    def offer(self):
+        """Offer a tolerance of each number that the current design has."""
+        self.tolerances.offer(self.assessment.current.design)
+
     def settings(self):
         """Return what is asked about the current design."""
         design, kind = self.assessment.current.design, self.shape.value
         half = 1.0 if kind == "uniform" else 0.5
         given = {
-            name: {kind: half * box.number / 100}
-            for name, box in self.tolerances.items()
-            if is_number(design, name) and name not in self._specimens and box.number
+            name: {kind: half * share}
+            for name, share in self.tolerances.shares(design).items()
+            if is_number(design, name) and name not in self._specimens
         }
         if not given and not self._specimens:
             raise ValueError("Give one of the tolerances: with none, nothing scatters.")
@@ -143,7 +147,7 @@ class HowSure(Asked):
         """Return what is put on the page."""
         return panel(
             caption("How sure?", HOW_SURE),
-            pn.FlexBox(*self.tolerances.values(), margin=(0, 12)),
+            self.tolerances.row,
             self.pasted,
             pn.FlexBox(self.read, self.forget, margin=(0, 12)),
             self.specimens,

@@ -6,11 +6,11 @@ import panel as pn
 import panel_material_ui as pmui
 
 from dashboard import theme
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS, FIELDS
 from dashboard.formats import quantity_text
 from dashboard.views.decide.asked import BOX
+from trackig_core.decide.numbers import changeable_numbers, single_numbers
 from trackig_core.names import brief
-from trackig_core.track.fields import SLIDER_RANGES
 from trackig_core.typed_numbers import NumberError, read_number
 
 
@@ -23,8 +23,8 @@ class NumberBox(pmui.TextInput):
     ----------
     label : str
         What the box is called; its end says the unit.
-    value : float
-        The number at first [unit].
+    value : float or str
+        The number at first [unit], or the text that stands for it.
     unit : str
         Unit of the number; empty if it has none.
     most : float
@@ -34,7 +34,8 @@ class NumberBox(pmui.TextInput):
     """
 
     def __init__(self, label, value, unit="", most=math.inf, whole=False, **look):
-        super().__init__(label=label, value=quantity_text(value), max_length=40, size="small", **BOX, **look)
+        text = value if isinstance(value, str) else quantity_text(value)
+        super().__init__(label=label, value=text, max_length=40, size="small", **BOX, **look)
         self._unit, self._most, self._whole = unit, most, whole
         self.param.watch(self._mark, "value")
 
@@ -62,7 +63,7 @@ class NumberBox(pmui.TextInput):
 
 def percent_box(name, value):
     """Return a box for a share of a field [%]."""
-    return NumberBox(f"{FIELDS[name].label}, ± %", value, "%", most=MOST_CHANGE, width=190)
+    return NumberBox(f"{ASKED_FIELDS[name].label}, ± %", value, "%", most=MOST_CHANGE, width=190)
 
 
 MOST_CHANGE = 90.0
@@ -99,14 +100,90 @@ def titled(title, boxes):
 
 def factor_label(name):
     """Return what scatters, as it is spoken."""
-    return FIELDS[name].label.lower() if name in FIELDS else "measured specimens"
+    return ASKED_FIELDS[name].label.lower() if name in ASKED_FIELDS else "measured specimens"
 
 
-def number_options():
-    """Return the fields that a designer chooses as numbers, by what they are called."""
-    return {FIELDS[name].label: name for name in SLIDER_RANGES}
+def number_options(design):
+    """Return the numbers that have a slider, and those of vehicle and ground that a design has, by label."""
+    around = [name for name in single_numbers(design) if name not in FIELDS]
+    return {ASKED_FIELDS[name].label: name for name in (*FIELDS, *around)}
+
+
+def offer(box, options):
+    """Have a box offer some options, and keep what is chosen as far as it is still among them."""
+    if box.options == options:
+        return
+    there = list(options.values())
+    if isinstance(box.value, list):
+        value = [each for each in box.value if each in there]
+    else:
+        value = box.value if box.value in there else there[0]
+    box.param.update(options=options, value=value)
 
 
 def is_number(design, name):
     """Return whether a field of a design is a single number: neither absent nor measured over frequency."""
-    return isinstance(getattr(design, name), float)
+    return isinstance(design.value(name), float)
+
+
+class ShareBoxes:
+    """Boxes for a share of each number: of some that have a slider, of vehicle and ground of what is there.
+
+    Parameters
+    ----------
+    shares : dict of str to float
+        What stands in the boxes of numbers with a slider at first, by name [%].
+    around : float
+        What stands at first in those of vehicle and ground [%].
+    exchange : Exchange
+        Prepares the browser for boxes that are added.
+    changed : callable, optional
+        Called when a share changes.
+    **words
+        Of the row that holds the boxes.
+
+    Attributes
+    ----------
+    boxes : dict of str to NumberBox
+        The boxes by name of the number.
+    row : panel.FlexBox
+        All of them.
+    """
+
+    def __init__(self, shares, around, exchange, changed=None, **words):
+        self._around, self._exchange, self._changed = around, exchange, changed
+        self.boxes = {}
+        self.row = pn.FlexBox(margin=(0, 12), **words)
+        self._add(shares)
+
+    def _add(self, shares):
+        for name, share in shares.items():
+            box = self.boxes[name] = percent_box(name, share)
+            if self._changed is not None:
+                box.param.watch(self._changed, "value")
+        self.row.objects = list(self.boxes.values())
+
+    def offer(self, design):
+        """Have boxes for those numbers of vehicle and ground that a design has."""
+        there = [name for name in changeable_numbers(design) if name in AROUND]
+        added = [name for name in there if name not in self.boxes]
+        if added:
+            self._add(dict.fromkeys(added, self._around))
+            self._exchange.introduce()
+        for name in AROUND & self.boxes.keys():
+            self.boxes[name].visible = name in there
+
+    def change_all(self, share):
+        """Have the same share in all boxes, and in those that are added: text, as it was typed [%]."""
+        self._around = share
+        for box in self.boxes.values():
+            box.value = share
+
+    def shares(self, design):
+        """Return the shares of what a design has, none of which is zero, by name [-]."""
+        there = changeable_numbers(design)
+        return {name: box.number / 100 for name, box in self.boxes.items() if name in there and box.number}
+
+
+AROUND = ASKED_FIELDS.keys() - FIELDS.keys()
+"""Numbers of vehicle and ground."""

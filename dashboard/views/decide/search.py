@@ -7,12 +7,20 @@ import panel_material_ui as pmui
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.compute.document import NextTick
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.decide import CloudFigure
 from dashboard.figures.legends import with_legend
 from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
 from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside, said
-from dashboard.views.decide.inputs import NumberBox, choice, is_number, number_options, seed_box, titled
+from dashboard.views.decide.inputs import (
+    NumberBox,
+    choice,
+    is_number,
+    number_options,
+    offer,
+    seed_box,
+    titled,
+)
 from trackig_core.decide.words import sentence
 from trackig_core.names import LONGEST_NAME
 
@@ -32,7 +40,7 @@ class Search(Asked):
         self._take, self._pin, self._chosen = take, pin, None
         self.free = pn.widgets.CheckBoxGroup(
             label="Free",
-            options=number_options(),
+            options=number_options(self.assessment.current.design),
             value=["pad_stiffness", "block_mass", "boot_stiffness"],
             inline=True,
             stylesheets=[theme.CHECKS_CSS],
@@ -86,6 +94,10 @@ class Search(Asked):
         self.against.param.watch(self._offer_prices, "value")
         self.inquiry.param.watch(NextTick(self._grow), "so_far")
 
+    def offer(self):
+        """Offer the numbers that the current design has."""
+        offer(self.free, number_options(self.assessment.current.design))
+
     def settings(self):
         """Return what is asked about the current design."""
         design = self.assessment.current.design
@@ -118,15 +130,13 @@ class Search(Asked):
     def show(self, found):
         """Draw what was found."""
         specification = self.assessment.specification
-        names = [name for name in FIELDS if name in found.free or _varies(found.many, name)]
-        ends = {
-            name: (FIELDS[name].low * FIELDS[name].factor, FIELDS[name].high * FIELDS[name].factor)
-            for name in names
-        }
+        names = [name for name in ASKED_FIELDS if name in found.free or _varies(found.many, name)]
+        fields = [ASKED_FIELDS[name] for name in names]
+        ends = {field.name: (field.low * field.factor, field.high * field.factor) for field in fields}
         labels = [
-            f"{FIELDS[name].label}\n{formats.quantity_text(FIELDS[name].low)}–"
-            f"{formats.quantity_text(FIELDS[name].high)} {FIELDS[name].unit}"
-            for name in names
+            f"{field.label}\n{formats.quantity_text(field.low)}–"
+            f"{formats.quantity_text(field.high)} {field.unit}"
+            for field in fields
         ] + [f"{kind.capitalize()}\nby name" for kind in found.chosen]
         axes = [_axis(name) for name in found.objectives]
         reference = self.definition.reference_of(found.many.design(0))
@@ -256,19 +266,19 @@ def chosen_words(found, row):
         quantity, _, unit = words.partition(", ")
         does.append(f"{quantity.lower()} {scale * value:.4g} {unit}".rstrip())
     design = found.many.design(row)
-    numbers = [name for name in found.free if name in FIELDS]
-    parts = [f"{field_label(name)} {with_unit(name, getattr(design, name))}" for name in numbers]
+    numbers = [name for name in found.free if name in ASKED_FIELDS]
+    parts = [f"{field_label(name)} {with_unit(name, design.value(name))}" for name in numbers]
     parts += [f"{kind} {names[row]}" for kind, names in found.chosen.items()]
     return sentence(f"{', '.join(does)}: {', '.join(parts)}.")
 
 
 def _varies(many, name):
-    column = many.columns[name]
+    column = many.column(name)
     return column.dtype == float and column.min() < column.max()
 
 
 def _axis(name):
     """Return what an objective is called, and what turns it into the unit that is shown."""
-    if name in FIELDS:
-        return FIELDS[name].labelled, 1 / FIELDS[name].factor
+    if name in ASKED_FIELDS:
+        return ASKED_FIELDS[name].labelled, 1 / ASKED_FIELDS[name].factor
     return FIGURE_WORDS[name]

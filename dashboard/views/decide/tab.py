@@ -56,8 +56,10 @@ class Decide(Tab):
         snapshot.assessment.param.watch(self.refresh, "results")
 
     def refresh(self, *_):
-        """Answer for the current design what takes milliseconds."""
+        """Offer what the current design has, and answer for it what takes milliseconds."""
         if self.in_sight:
+            for part in (self.what_matters, self.how_sure, self.map, self.search):
+                part.offer()
             self.what_matters.ask()
 
     def _take(self, design):

@@ -4,13 +4,12 @@ import panel as pn
 import panel_material_ui as pmui
 
 from dashboard import formats
-from dashboard.fields import FIELDS
+from dashboard.fields import ASKED_FIELDS, FIELDS
 from dashboard.figures.decide import ChangeFigure, TornadoFigure
 from dashboard.session.answers import FIGURE_WORDS
 from dashboard.views.components import caption, panel
 from dashboard.views.decide.asked import Asked, beside
-from dashboard.views.decide.inputs import MOST_CHANGE, NumberBox, choice, percent_box
-from trackig_core.track.fields import SLIDER_RANGES
+from dashboard.views.decide.inputs import MOST_CHANGE, NumberBox, ShareBoxes, choice
 
 
 class WhatMatters(Asked):
@@ -22,8 +21,9 @@ class WhatMatters(Asked):
         super().__init__(snapshot, exchange)
         self.change = NumberBox("Change, ± %", 10.0, "%", most=MOST_CHANGE, width=130)
         self.one_by_one = pmui.Checkbox(label="A change for each field", size="small", margin=(8, 12, 0, 0))
-        self.changes_of = {name: percent_box(name, 10.0) for name in SLIDER_RANGES}
-        self.boxes = pn.FlexBox(*self.changes_of.values(), visible=False, margin=(0, 12))
+        self.changes_of = ShareBoxes(
+            dict.fromkeys(FIELDS, 10.0), 10.0, exchange, changed=self.ask, visible=False
+        )
         self.figure = choice(
             label="Figure",
             options={FIGURE_WORDS["margin"][0]: "margin"},
@@ -32,26 +32,22 @@ class WhatMatters(Asked):
         self.changes, self.tornado = ChangeFigure(), TornadoFigure()
         self.change.param.watch(self._change_all, "value")
         self.one_by_one.param.watch(self._offer_boxes, "value")
-        for box in self.changes_of.values():
-            box.param.watch(self.ask, "value")
         self.figure.param.watch(self._draw, "value")
 
     def _change_all(self, event):
-        for box in self.changes_of.values():
-            box.value = event.new
+        self.changes_of.change_all(event.new)
         self.ask()
 
     def _offer_boxes(self, event):
-        self.boxes.visible = event.new
+        self.changes_of.row.visible = event.new
+
+    def offer(self):
+        """Offer a change of each number that the current design has."""
+        self.changes_of.offer(self.assessment.current.design)
 
     def settings(self):
         """Return what is asked about the current design."""
-        design = self.assessment.current.design
-        changes = {
-            name: box.number / 100
-            for name, box in self.changes_of.items()
-            if getattr(design, name) is not None and box.number
-        }
+        changes = self.changes_of.shares(self.assessment.current.design)
         if not changes:
             raise ValueError("Give one change or more: with none, nothing changes.")
         return {"changes": changes}
@@ -61,13 +57,13 @@ class WhatMatters(Asked):
         options = {FIGURE_WORDS[name][0]: name for name in result.figures}
         if list(self.figure.options) != list(options):
             self.figure.param.update(options=options, value=next(iter(options.values())))
-        labels = [FIELDS[name].label for name in result.fields]
+        labels = [ASKED_FIELDS[name].label for name in result.fields]
         self.changes.show(labels, result.bands[:, 1])
         ranked = result.ranked(self.figure.value)
         rows = [result.fields.index(name) for name in ranked]
         words, scale = FIGURE_WORDS[self.figure.value]
         changes = result.differences[self.figure.value][rows] * scale
-        self.tornado.show([FIELDS[name].label for name in ranked], changes, f"Change of: {words}")
+        self.tornado.show([ASKED_FIELDS[name].label for name in ranked], changes, f"Change of: {words}")
 
     def words(self, result):
         """Return the answer in one sentence."""
@@ -76,10 +72,10 @@ class WhatMatters(Asked):
         words, scale = FIGURE_WORDS[first]
         quantity, _, unit = words.partition(", ")
         less, more = scale * result.differences[first][result.fields.index(name)]
-        change = f"{100 * result.changes[name]:.3g} %"
+        change, label = f"{100 * result.changes[name]:.3g} %", ASKED_FIELDS[name].label.lower()
         return (
-            f"The {quantity.lower()} depends most on the {FIELDS[name].label.lower()}: {change} less changes "
-            f"it by {formats.signed_text(less)} {unit}, {change} more by {formats.signed_text(more)} {unit}."
+            f"The {quantity.lower()} depends most on the {label}: {change} less changes it "
+            f"by {formats.signed_text(less)} {unit}, {change} more by {formats.signed_text(more)} {unit}."
         )
 
     def build(self):
@@ -87,7 +83,7 @@ class WhatMatters(Asked):
         return panel(
             caption("What matters?", WHAT_MATTERS),
             pn.FlexBox(self.change, self.one_by_one, self.figure, margin=(0, 12)),
-            self.boxes,
+            self.changes_of.row,
             self.sentence,
             self.answered_row,
             beside(self.changes.model, self.tornado.model),

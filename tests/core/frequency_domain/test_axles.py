@@ -181,7 +181,7 @@ def test_on_ground_that_yields_only_the_stiff_reference_has_a_meaning():
 @pytest.mark.parametrize(
     ("design", "field"),
     [
-        (BLOCK.replace(ground=tig.Ground(300e6, 0.0, 150.0)), "ground_damping"),
+        (BLOCK.replace(ground=tig.Ground(300e6, 0.0, 150.0)), "ground.damping"),
         (BLOCK.replace(ground=tig.Ground(300e6, 0.0, 0.0), boot_loss_factor=0.0), "boot_loss_factor"),
     ],
 )

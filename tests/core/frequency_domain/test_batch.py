@@ -312,8 +312,8 @@ def test_vehicles_and_axles_are_solved_as_one_exact_solve_after_the_other():
             assert np.abs(many.gain_for(reference, summation) - expected).max() < 0.01
     found = [each.natural_frequencies.loaded_track for each in solutions]
     assert many.loaded_track == pytest.approx(np.array(found), rel=1e-9)
-    assert "suspension" in many.to_dataframe()
-    assert "suspension" not in solve_many(BLOCK).to_dataframe()
+    assert "suspension.bogie_mass" in many.to_dataframe()
+    assert "suspension.bogie_mass" not in solve_many(BLOCK).to_dataframe()
 
 
 def test_grounds_broadcast_and_have_the_stiff_reference():
@@ -335,7 +335,7 @@ def test_grounds_broadcast_and_have_the_stiff_reference():
 def test_errors_of_vehicles_name_the_row():
     with pytest.raises(tig.DesignError, match=r"row 1: speed = 2.0: give 5 m/s or more"):
         solve_many(BLOCK, axle_positions=[(0.0,), (0.0, 20.0)], speed=[30.0, 2.0])
-    with pytest.raises(tig.DesignError, match="row 2: ground_damping"):
+    with pytest.raises(tig.DesignError, match=r"row 2: ground\.damping"):
         solve_many([BLOCK, BLOCK, BLOCK.replace(ground=tig.Ground(3e8, 0.0, 100.0))])
     with pytest.raises(tig.DesignError, match="row 1: boot_loss_factor"):
         solve_many([SURROUNDED[0], BLOCK.replace(boot_loss_factor=0.0)])

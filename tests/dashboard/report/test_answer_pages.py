@@ -7,7 +7,7 @@ import re
 import pytest
 
 import trackig_core as tig
-from dashboard.report.answer_pages import answer_page
+from dashboard.report.answer_pages import answer_page, question_lines
 from dashboard.report.html_report import html_report
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
@@ -73,6 +73,31 @@ def test_figures_of_a_page_are_the_library_s():
     (table,) = answer_page(answer, result).tables
     assert "Rail" in table.heads
     assert len(table.rows) == min(max(result.front.size, 1), 24)
+
+
+def test_numbers_of_vehicle_and_ground_are_named_as_elsewhere():
+    sprung = BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["rock"])
+    path, other = "ground.stiffness", "suspension.bogie_mass"
+    pages = {}
+    for kind, settings in {
+        "range": {"fields": [path]},
+        "sensitivity": {"changes": {path: 0.1}},
+        "tolerance": {"tolerances": {path: 0.1}, "samples": 100},
+        "map": {"x_field": path, "y_field": other, "points": [4, 3]},
+        "find": {"free": [path, other], "population": 8, "generations": 1},
+    }.items():
+        question = tig.decide.Question(kind, sprung, settings, specification=LIMITS, reference="stiff")
+        result = question.ask()
+        answer = tig.decide.Answer.of(question, result)
+        pages[kind] = answer_page(answer, result)
+        _, lines = question_lines(answer)
+        assert "ground stiffness 3200 kN/mm" in lines[0]
+        assert any("ground stiffness" in line.lower() for line in lines[3:])
+    assert pages["range"].tables[0].rows[0][0] == "Ground stiffness"
+    assert pages["sensitivity"].tables[0].rows[0][0] == "ground stiffness ∓ 10 %"
+    assert pages["tolerance"].tables[0].rows[0][0] == "Ground stiffness"
+    assert "Bogie mass per wheel, kg" in str(pages["map"].plot)
+    assert pages["find"].tables[0].heads[:2] == ("Bogie mass per wheel, kg", "Ground stiffness, kN/mm")
 
 
 def test_an_answer_that_was_opened_and_not_asked_again_says_so(summary):

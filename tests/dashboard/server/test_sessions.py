@@ -11,10 +11,12 @@ from bokeh.application.handlers.document_lifecycle import DocumentLifecycleHandl
 from bokeh.document import Document
 from bokeh.server.contexts import ApplicationContext
 from panel.io.application import build_single_handler_application
+from panel.io.server import WSHandler
 from panel.io.state import state
 from tornado.ioloop import IOLoop
 
 from dashboard.server import sessions
+from dashboard.server.serving import SocketHandler
 
 DASHBOARD = Path(__file__).parents[3] / "dashboard"
 
@@ -79,3 +81,24 @@ def test_a_document_counts_until_it_is_forgotten():
     assert sessions.count() == before + 1
     sessions.forget(document)
     assert sessions.count() == before
+
+
+@pytest.mark.parametrize("is_there", [True, False])
+def test_whoever_leaves_while_waiting_gets_no_session(monkeypatch, is_there):
+    async def begin_session(_, token):
+        begun.append(token)
+
+    async def come():
+        handler = SocketHandler.__new__(SocketHandler)
+        handler.ws_connection = SimpleNamespace(is_closing=lambda: False)
+        opening = asyncio.create_task(handler._async_open("a token"))
+        await asyncio.sleep(0)
+        if not is_there:
+            # as Tornado does when a socket closes
+            handler.ws_connection = None
+        await opening
+
+    begun = []
+    monkeypatch.setattr(WSHandler, "_async_open", begin_session)
+    asyncio.run(come())
+    assert begun == ["a token"] * is_there

@@ -131,7 +131,7 @@ def test_production_is_the_library_s(session):
     view = session.view.how_sure
     view.samples.value = 1000
     session.do(view.ask)
-    shares = {name: {"uniform": box.number / 100} for name, box in view.tolerances.items()}
+    shares = {name: {"uniform": box.number / 100} for name, box in view.tolerances.boxes.items()}
     question = tig.decide.Question(
         "tolerance", BLOCK, {"tolerances": shares, "samples": 1000, "seed": 0}, specification=LIMITS
     )
@@ -140,7 +140,7 @@ def test_production_is_the_library_s(session):
     np.testing.assert_array_equal(view.percentiles.bands.data["high"], expected.percentiles[2])
     np.testing.assert_array_equal(view.percentiles.bands.data["limit"], LIMITS.levels)
     assert "of production" in view.sentence.object
-    for box in view.tolerances.values():
+    for box in view.tolerances.boxes.values():
         box.value = "0"
     session.do(view.ask)
     assert "Give one of the tolerances" in view.sentence.object
@@ -379,7 +379,7 @@ def test_every_answer_can_be_saved_with_all_that_obtains_it_again(session, name)
 def test_a_change_for_each_field_is_the_library_s(session):
     view = session.view.what_matters
     session.do(view.change.param.update, value="5")
-    session.do(view.changes_of["boot_stiffness"].param.update, value="20")
+    session.do(view.changes_of.boxes["boot_stiffness"].param.update, value="20")
     changes = dict.fromkeys(FIELDS, 0.05) | {"boot_stiffness": 0.2}
     expected = tig.decide.sensitivity(BLOCK, LIMITS, changes=changes)
     np.testing.assert_array_equal(view.inquiry.result.bands, expected.bands)
@@ -388,7 +388,9 @@ def test_a_change_for_each_field_is_the_library_s(session):
 def test_what_the_scatter_is_due_to_is_the_library_s(session):
     view = session.view.what_scatters
     session.do(view.ask)
-    shares = {name: tig.decide.Uniform(box.number / 100) for name, box in view._how_sure.tolerances.items()}
+    shares = {
+        name: tig.decide.Uniform(box.number / 100) for name, box in view._how_sure.tolerances.boxes.items()
+    }
     figures = ("margin", "deflection", "loaded_track", "coupled_block")
     expected = tig.decide.sobol(BLOCK, shares, LIMITS, figures=figures)
     np.testing.assert_array_equal(view.inquiry.result.total_order, expected.total_order)
@@ -404,11 +406,11 @@ def test_measured_specimens_take_the_place_of_their_tolerances(session):
     view.pasted.value = "Boot stiffness, MN/m\tBoot loss factor\n26\t0.19\n28,5\t0.21\n31\t0.2"
     session.do(view.read.param.trigger, "clicks")
     assert "Boot stiffness and boot loss factor scatter as in 3 specimens" in view.specimens.object
-    assert view.tolerances["boot_stiffness"].disabled
+    assert view.tolerances.boxes["boot_stiffness"].disabled
     session.do(view.ask)
     shares = {
         name: box.number / 100
-        for name, box in view.tolerances.items()
+        for name, box in view.tolerances.boxes.items()
         if name not in ("boot_stiffness", "boot_loss_factor")
     }
     table = {"boot_stiffness": [26e6, 28.5e6, 31e6], "boot_loss_factor": [0.19, 0.21, 0.2]}
@@ -486,3 +488,87 @@ def test_a_search_chooses_measured_pads_of_the_catalogue_that_is_open(session):
     ((_, row),) = session.view.kept.rows
     session.do(row.again.param.trigger, "clicks")
     assert "The same figures came out" in row.outcome.object
+
+
+SPRUNG = BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["soft clay"])
+
+
+@pytest.fixture
+def surrounded(session, fake_picture):
+    """Return a session, the tab in sight, whose design has a suspension and ground that yields."""
+    session.do(session.outcome.param.update, summary=fake_picture(SPRUNG))
+    session.do(session.view.look, active=True)
+    return session
+
+
+def test_numbers_of_vehicle_and_ground_are_offered_while_the_design_has_them(surrounded, fake_picture):
+    view = surrounded.view
+    for box in (view.map.x, view.map.y, view.search.free):
+        assert {"suspension.primary_stiffness", "ground.damping"} <= {*box.options.values()}
+        assert "speed" not in box.options.values(), "of one wheel it does not matter"
+    assert view.how_sure.tolerances.boxes["ground.stiffness"].visible
+    view.map.x.value = "ground.stiffness"
+    view.search.free.value = ["ground.stiffness", "block_mass"]
+    surrounded.do(surrounded.outcome.param.update, summary=fake_picture(BLOCK))
+    for box in (view.map.x, view.map.y, view.search.free):
+        assert {*box.options.values()} == {*FIELDS}
+    assert view.map.x.value in FIELDS
+    assert view.search.free.value == ["block_mass"]
+    assert not view.how_sure.tolerances.boxes["ground.stiffness"].visible
+    assert {*view.what_matters.settings()["changes"]} == {*FIELDS}
+
+
+def test_what_matters_about_vehicle_and_ground_is_the_library_s(surrounded):
+    view = surrounded.view.what_matters
+    expected = tig.decide.sensitivity(SPRUNG, LIMITS, reference="stiff")
+    assert view.inquiry.result.fields == expected.fields
+    np.testing.assert_array_equal(view.inquiry.result.bands, expected.bands)
+    assert "Ground stiffness" in view.changes.cells.data["field"]
+
+
+def test_a_map_of_a_ground_takes_its_designs(surrounded, monkeypatch):
+    monkeypatch.setattr("dashboard.views.decide.design_map.SURROUNDED_POINTS", [5, 4])
+    view = surrounded.view.map
+    view.x.value, view.y.value = "ground.stiffness", "suspension.primary_damping"
+    surrounded.do(view.ask)
+    found = view.inquiry.result
+    expected = tig.decide.design_map(
+        *(SPRUNG, "ground.stiffness", "suspension.primary_damping", LIMITS),
+        figures=["margin"],
+        points=(5, 4),
+        reference="stiff",
+    )
+    np.testing.assert_array_equal(found.figures["margin"], expected.figures["margin"])
+    assert view.map.model.xaxis.axis_label == "Ground stiffness, kN/mm"
+    assert view.map.model.yaxis.axis_label == "Primary damping, kN s/m"
+    surrounded.do(view._tapped, found.x[1] / 1e6, found.y[2] / 1e3)
+    taken = surrounded.inputs.to_design()
+    assert taken.ground.stiffness == pytest.approx(found.x[1], rel=1e-5)
+    assert taken.suspension.primary_damping == pytest.approx(found.y[2], rel=1e-5)
+    assert taken.ground.damping == pytest.approx(SPRUNG.ground.damping, rel=1e-5)
+
+
+def test_a_ground_scatters_where_it_has_a_tolerance(surrounded):
+    view = surrounded.view.how_sure
+    view.samples.value = 1000
+    for box in view.tolerances.boxes.values():
+        box.value = "0"
+    view.tolerances.boxes["ground.stiffness"].value = "30"
+    surrounded.do(view.ask)
+    expected = tig.decide.tolerance(
+        SPRUNG, LIMITS, {"ground.stiffness": 0.3}, samples=1000, reference="stiff"
+    )
+    np.testing.assert_array_equal(view.inquiry.result.percentiles, expected.percentiles)
+    assert "Ground stiffness" in view.table.object
+
+
+def test_a_search_frees_a_suspension(surrounded, monkeypatch):
+    view = surrounded.view.search
+    view.free.value = ["suspension.bogie_mass"]
+    settings = view.settings() | {"population": 8, "generations": 2}
+    monkeypatch.setattr(view, "settings", lambda: settings)
+    surrounded.do(view.ask)
+    masses = view.inquiry.result.many.column("suspension.bogie_mass")
+    assert masses.min() < masses.max()
+    labels = view.cloud.fields.xaxis.major_label_overrides
+    assert labels[0].startswith("Bogie mass per wheel\n200–15")
