@@ -131,6 +131,18 @@ LEFT_ALIGNED = {
 }
 """The same for words."""
 
+WHOLE_NAME = {
+    **LEFT_ALIGNED,
+    "& input": {
+        **LEFT_ALIGNED["& input"],
+        "fieldSizing": "content",
+        "width": "auto",
+        "flexGrow": 1,
+        "textOverflow": "ellipsis",
+    },
+}
+"""A box that grows with its words; where the browser cannot have it grow, dots say that it holds more."""
+
 SIDEBAR_WIDTH = 330
 STATUS_HEIGHT = 32
 DESIGN_BAR_HEIGHT = 80
@@ -150,6 +162,11 @@ STATUS_CSS = """
 :host { font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }
 div { font-size: 15px; line-height: 30px; font-variant-numeric: tabular-nums; }
 [role="status"] { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+[role="status"]:focus {
+    position: absolute; z-index: 3; width: 100%; padding: 4px 0; white-space: normal; line-height: 1.4;
+    background: var(--panel-background-color); outline: none;
+    box-shadow: 0 0 0 6px var(--panel-background-color), 0 0 0 8px var(--panel-primary-color);
+}
 .problem { color: var(--danger-bg-color); font-weight: 500; }
 """
 OPENING_CSS = """
@@ -160,7 +177,8 @@ OPENING_CSS = """
 """What opens at once says nothing, so that nothing flickers."""
 
 SELECT_CSS = """
-select.bk-input { font-size: 15px; color: var(--panel-on-background-color); }
+select.bk-input { font-size: 15px; color: var(--panel-on-background-color); text-overflow: ellipsis; }
+select:not([multiple]).bk-input.bk-input { padding-right: 28px; }
 select:not([multiple]).bk-input.bk-input {
     background-image: linear-gradient(45deg, transparent 50%, currentColor 50%),
         linear-gradient(135deg, currentColor 50%, transparent 50%);
@@ -341,20 +359,28 @@ LEVELS_CSS = f"""
 {_TABLE_CSS}
 table {{ font-size: 20px; }}
 thead th {{ font-size: 15px; }}
+thead th:not(:first-child) {{ min-width: 84px; max-width: 150px; overflow-wrap: anywhere; }}
+tbody th {{ position: relative; max-width: 460px; padding-left: 46px; overflow-wrap: anywhere; }}
+tbody th svg {{ position: absolute; left: 2px; top: calc(1px + 0.6lh - 6px); }}
 th:first-child {{ text-align: left; }}
 p {{ margin: 0; font-size: 16px; }}
+@media (max-width: {NARROW_WINDOW}px) {{
+    table {{ font-size: 17px; }}
+    thead th {{ font-size: 14px; }}
+}}
 """
+"""Names stand beside the pieces of their lines, however many lines of text they take."""
 
 VERDICT_CSS = f"""
 :host {{ font-family: var(--bokeh-base-font); color: var(--panel-on-background-color); }}
 p {{ margin: 0; font-size: 16px; }}
-ul {{ display: grid; grid-template-columns: max-content minmax(0, auto) max-content; }}
+ul {{ display: grid; grid-template-columns: max-content minmax(min(10em, 30%), auto) auto; }}
 ul {{ gap: 4px 12px; justify-content: start; list-style: none; margin: 0; padding: 0; }}
 li {{ display: contents; font-size: 22px; line-height: 1.3; }}
 @media (max-width: {NARROW_WINDOW}px) {{ li {{ font-size: 17px; }} }}
 li svg {{ align-self: center; }}
 .name {{ overflow-wrap: anywhere; }}
-span:last-child {{ white-space: nowrap; }}
+.part {{ white-space: nowrap; }}
 .complies {{ color: {COMPLIES_TEXT}; font-weight: 700; }}
 .fails {{ color: {FAILS_TEXT}; font-weight: 700; }}
 """

@@ -199,18 +199,33 @@ def dress(plot, aria_label, keys=()):
     plot.update(toolbar_location="right", sizing_mode="stretch_width")
     plot.toolbar.logo = None
     plot.toolbar.autohide = True
-    for axis in plot.axis:
-        keep(axis, major_label_text_font_size=theme.TICK_SIZES, axis_label_text_font_size=theme.AXIS_SIZES)
+    keep_sizes(plot)
 
 
-def keep(model, **looks):
-    """Keep looks of a model that the page's theme would change, each for narrow and for wide windows."""
-    for name, (narrow, wide) in looks.items():
-        setattr(model, name, wide)
-        model.js_on_change(name, CustomJS(args={"name": name, "narrow": narrow, "wide": wide}, code=KEEP))
+def keep_sizes(plot):
+    """Give the text of a figure's axes the sizes of narrow or wide windows, whatever the theme says."""
+    narrow, wide = SIZES
+    axes = list(plot.axis)
+    fit = CustomJS(args={"axes": axes, "narrow": narrow, "wide": wide}, code=FIT_SIZES)
+    # a window that is resized is told by the width that it leaves to the frame
+    plot.js_on_change("inner_width", fit)
+    for axis in axes:
+        axis.update(**wide)
+        for name in wide:
+            axis.js_on_change(name, fit)
 
 
-KEEP = f"""
+SIZES = [
+    {"major_label_text_font_size": ticks, "axis_label_text_font_size": axis}
+    for ticks, axis in zip(theme.TICK_SIZES, theme.AXIS_SIZES, strict=True)
+]
+"""Sizes of an axis' text in narrow windows, and in wide ones."""
+
+FIT_SIZES = f"""
     const wanted = window.innerWidth < {theme.NARROW_WINDOW} ? narrow : wide
-    if (cb_obj[name] !== wanted) {{ cb_obj.setv({{[name]: wanted}}, {{sync: false}}) }}
+    for (const axis of axes) {{
+        if (Object.keys(wanted).some(name => axis[name] !== wanted[name])) {{
+            axis.setv(wanted, {{sync: false}})
+        }}
+    }}
 """

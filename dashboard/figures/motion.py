@@ -410,7 +410,7 @@ class FilmPlayer(_Player):
             options=[(factor, words) for words, factor in SPEEDS.items()],
             width=130,
             syncable=False,
-            stylesheets=[theme.PLAYER_CSS],
+            stylesheets=[theme.PLAYER_CSS, theme.SELECT_CSS],
         )
         time = {"title": "Time, ms", "end": 300, "step": 0.1, "format": "0.0"}
         super().__init__("film", time, [self.film], FILM_FRAME, "1 / Number(speed.value)", self.speed)

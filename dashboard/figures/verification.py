@@ -29,8 +29,8 @@ FEW_TICKS = 4
 FRAME_LEFT = 88
 """Room for the value axis [px], so that the bands of two figures stand above each other."""
 
-LOG_ROOM = 1.25
-"""Factor of room at the ends of a logarithmic axis [-]."""
+LOG_ROOM = 0.05
+"""Room at either end of a logarithmic axis, of the decades that are shown [-]: more than half a dot."""
 
 NANOMETRES_PER_KILONEWTON = 1e12
 """One m/N in nm/kN."""
@@ -338,9 +338,10 @@ class DampingFigure:
 
 
 def _hold(ends, *values):
-    """Let a logarithmic axis show values, with a little room around them."""
+    """Let a logarithmic axis show values, with room for the whole of the dots at its ends."""
     seen = np.concatenate(values)
-    ends.update(start=seen.min() / LOG_ROOM, end=seen.max() * LOG_ROOM)
+    room = (seen.max() / seen.min()) ** LOG_ROOM
+    ends.update(start=seen.min() / room, end=seen.max() * room)
 
 
 def _compared(run, exact):

@@ -67,10 +67,11 @@ class Explore(Tab):
         self.bands_words = words(size=14, visible=False, margin=(0, 14, 4, 14))
         self.choices = [
             pn.widgets.Select.from_param(
-                parameter, width=CHOICE_WIDTH, margin=(0, 6, 0, 6), stylesheets=[theme.SELECT_CSS]
+                definition.param[name], width=width, margin=(0, 0, 4, 12), stylesheets=[theme.SELECT_CSS]
             )
-            for parameter in (definition.param.summation, definition.param.reference, definition.param.bands)
+            for name, width in CHOICE_WIDTHS.items()
         ]
+        self.choices[0].styles = {"margin-left": "auto"}
         outcome.param.watch(self._dim, ["problem", "progress", "summary"])
         show = NextTick(self._show)
         # results follow the definition and the specification too
@@ -151,10 +152,9 @@ class Explore(Tab):
         yield
         gain_pane, force_pane = self.panes
         gain.objects = [
-            pn.Row(
+            pn.FlexBox(
                 caption(GAIN_TITLE, ""),
                 self.fidelity,
-                pn.HSpacer(),
                 *self.choices,
                 sizing_mode="stretch_width",
             ),
@@ -199,8 +199,8 @@ GAIN_WORDS = (
     "coherent force lets them cancel; it matters above resonance."
 )
 
-CHOICE_WIDTH = 205
-
+CHOICE_WIDTHS = {"bands": 270, "summation": 205, "reference": 240}
+"""Each as wide as the words of its longest option [px]; the first has room beside the heading everywhere."""
 
 FORCE_TITLE = "Force into the ground"
 FORCE_WORDS = "after a step of 0.1 mm between wheel and rail"

@@ -42,7 +42,10 @@ class Learn(Tab):
             **{kind.title: partial(kind, outcome, definition) for kind in EXPLAINING},
         }
         self._made = {}
-        self._places = {title: pn.Column(sizing_mode="stretch_width", margin=0) for title in self._makers}
+        self._places = {
+            title: pn.Column(stylesheets=[theme.OPENING_CSS], sizing_mode="stretch_width", margin=0)
+            for title in self._makers
+        }
         self.menu = pmui.Tabs(
             *self._places.items(), sizing_mode="stretch_width", margin=(0, 8, 8, 8), sx=theme.TABS
         )
@@ -69,6 +72,7 @@ class Learn(Tab):
 
     def _put(self, place, subject, _):
         if not place.objects:
+            place.stylesheets = []
             place.append(subject)
 
     def build(self):

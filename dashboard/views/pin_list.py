@@ -41,8 +41,9 @@ class PinRow(Viewer):
             size="small",
             variant="outlined",
             sizing_mode="stretch_width",
+            styles=GROWS,
             min_width=120,
-            sx=theme.HIDDEN_LABEL | theme.LEFT_ALIGNED,
+            sx=theme.HIDDEN_LABEL | theme.WHOLE_NAME,
             margin=(9, 4, 0, 0),
         )
         self.colour = pn.widgets.Select(
@@ -60,8 +61,13 @@ class PinRow(Viewer):
         self.colour.param.watch(self._recolour, "value")
         self.shown.param.watch(self._show_or_hide, "value")
         self._row = pmui.Row(
-            *(self.swatch, self.name_box, self.colour, self.shown, self.use, self.remove),
+            pmui.Row(self.swatch, self.name_box, styles=GROWS | {"max-width": "100%"}, margin=0),
+            pmui.Row(
+                self.colour, self.shown, self.use, self.remove, styles={"margin-left": "auto"}, margin=0
+            ),
             sizing_mode="stretch_width",
+            # what stands beside a long name makes way for it
+            sx={"flexWrap": "wrap"},
             margin=(0, 8, 0, 8),
         )
 
@@ -96,6 +102,9 @@ class PinRow(Viewer):
         """Return what is put on the page."""
         return self._row
 
+
+GROWS = {"flex": "1 1 max-content", "width": "auto"}
+"""What is as wide as its words, and takes what room is left."""
 
 BUTTON = {"size": "small", "variant": "text", "margin": (7, 2, 0, 2)}
 

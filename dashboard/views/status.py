@@ -1,7 +1,8 @@
 """The status line: what the solver does, what it noted, and what went wrong.
 
 It says in words whatever the pictures cannot show, on one line whose height never
-changes, so that the pictures below stay put. What does not fit is told when the pointer rests on it.
+changes, so that the pictures below stay put. What does not fit is told when the pointer rests on the line,
+and when it has the focus.
 """
 
 import html
@@ -74,7 +75,8 @@ def status_html(outcome):
     """Return what an outcome has to say as HTML, whatever characters it is made of."""
     kind = "problem" if outcome.problem and not outcome.busy else "fine"
     words = html.escape(status_words(outcome))
-    return f'<div role="status" class="{kind}" title="{words}">{words}</div>'
+    # with the focus, by a finger or the Tab key, it unfolds over the pictures
+    return f'<div role="status" tabindex="0" class="{kind}" title="{words}">{words}</div>'
 
 
 COMPILING = "Compiling the solver for this computer; it takes some seconds, at the first start only …"

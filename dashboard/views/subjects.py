@@ -308,7 +308,7 @@ class Definitions(Subject):
         super().__init__(outcome, definition)
         self.four = BandsFigure("definitions", self.FOUR)
         self.references = StiffReferenceFigure()
-        self.against = BandsFigure("against_stiff", self.AGAINST, "Insertion gain, dB (summed energy)")
+        self.against = BandsFigure("against_stiff", self.AGAINST, "IG, dB (energy)")
         self.words, self.stiff_words = words(), words()
         self._follow()
 

@@ -40,9 +40,11 @@ class ShortVerdict(Viewer):
 
 
 def badge(verdict):
-    """Return a verdict as HTML: a sign, and the words, those of the outcome in large letters."""
+    """Return a verdict as HTML: a sign, and the words, of which each part keeps to one line."""
     kind, sign = ("complies", "✓") if verdict.complies else ("fails", "✗")
-    return f'<span class="{kind}"><b aria-hidden="true">{sign}</b> {html.escape(str(verdict))}</span>'
+    words = html.escape(str(verdict)).replace("; ", ';</span> <span class="part">')
+    sign = f'<b aria-hidden="true">{sign}</b>'
+    return f'<span class="{kind}"><span class="part">{sign} {words}</span></span>'
 
 
 def verdicts_html(results):

@@ -10,8 +10,8 @@ from dashboard.report.data_sheet import data_sheet
 from dashboard.session.bands import gain_in
 from dashboard.session.heading import Heading
 from dashboard.session.results import DesignResult, SolutionSummary
-from dashboard.theme import MOST_PINNED
-from tests.browser.conftest import wait_until_at_rest
+from dashboard.theme import AXIS_SIZES, MOST_PINNED, TICK_SIZES
+from tests.browser.conftest import SOLVED, wait_until_at_rest
 from tests.browser.test_workshop import open_file, open_tab, pages
 from trackig_core.names import LONGEST_NAME, LONGEST_TITLE
 
@@ -25,7 +25,8 @@ STUDY = tig.Study(
         tig.PinnedDesign(f"{LONG}{place}", design, place)
         for place, design in enumerate((*tig.PRESETS.values(), *tig.PRESETS.values()))
     ],
-    tig.Specification([(31.5, 3.0), (63, 0.0), (125, -12.0)]),
+    tig.Specification([(31.5, 3.0), (63, 0.0), (125, -12.0)], rail_deflection_limit=1.5e-3),
+    source=tig.SourceSpectrum([(31.5, 60.0), (63, 70.0)]),
 )
 
 BOXES = """name => {
@@ -69,22 +70,96 @@ def test_eight_long_names_leave_two_thirds_of_a_figure_to_the_data(small, tab, f
     assert right <= 1024
 
 
-def test_all_tabs_are_in_sight_and_none_scrolls_sideways(small):
+def test_long_names_of_pins_are_in_sight_and_short_ones_keep_to_one_line(small):
+    open_tab(small, "Compare")
+    boxes = small.get_by_role("textbox", name="Name of the design", exact=True)
+    expect(boxes).to_have_count(MOST_PINNED)
+    wait_until_at_rest(small)
+    widest = "boxes => Math.max(...boxes.map(each => each.scrollWidth - each.clientWidth))"
+    assert boxes.evaluate_all(widest) <= 0
+    removes = small.get_by_role("button", name="Remove")
+    box, remove = boxes.first.bounding_box(), removes.first.bounding_box()
+    assert remove["y"] >= box["y"] + box["height"]
+    assert remove["x"] + remove["width"] <= 1024
+    name = boxes.first.input_value()
+    boxes.first.fill("Short")
+    box, remove = boxes.first.bounding_box(), removes.first.bounding_box()
+    assert remove["y"] < box["y"] + box["height"]
+    boxes.first.fill(name)
+
+
+@pytest.mark.parametrize(
+    ("tab", "heading"), [("Received level", "Level, dB(A)"), ("Specification", "Deflection")]
+)
+def test_figures_of_eight_long_names_fit_into_the_window(small, tab, heading):
+    open_tab(small, tab)
+    table = small.get_by_role("table").filter(has=small.get_by_role("columnheader", name=heading, exact=True))
+    expect(table.get_by_role("row", name=LONG.strip())).to_have_count(MOST_PINNED)
+    if tab == "Received level":
+        small.get_by_role("combobox", name="Difference from").select_option(label=f"{LONG}0")
+        expect(table.get_by_role("columnheader", name=f"re {LONG}0, dB(A)")).to_be_visible()
+    wait_until_at_rest(small)
+    assert table.evaluate("each => each.getBoundingClientRect().right") <= 1024
+    row = table.get_by_role("rowheader").last
+    row_box, name, swatch = (each.bounding_box() for each in (row, row.locator(".name"), row.locator("svg")))
+    assert row_box["width"] > 200
+    assert swatch["x"] + swatch["width"] <= name["x"]
+    assert row_box["y"] <= swatch["y"] < row_box["y"] + 24
+
+
+def test_all_tabs_are_in_sight(small):
     for tab in small.get_by_role("tab").all():
         box = tab.bounding_box()
         assert 0 <= box["x"] <= box["x"] + box["width"] <= 1024
-    open_tab(small, "Save & share")
+
+
+WIDE = """() => {
+    const wide = []
+    const walk = root => root.querySelectorAll("*").forEach(each => {
+        if (each.shadowRoot) walk(each.shadowRoot)
+        const sideways = each.matches(".main-content") && each.scrollWidth > each.clientWidth
+        const hidden = each.matches("button, input, select, textarea, h2, p, li")
+            && each.getBoundingClientRect().right > innerWidth + 1
+        if (sideways || hidden) wide.push(each.outerHTML.slice(0, 80))
+    })
+    walk(document)
+    return wide
+}"""
+
+
+@pytest.mark.parametrize("tab", ["Explore", "Compare", "Specification", "Received level", "Save & share"])
+def test_no_tab_scrolls_sideways(small, tab):
+    open_tab(small, tab)
+    expect(small.get_by_role("heading", level=2).filter(visible=True).first).to_be_visible()
     wait_until_at_rest(small)
-    wide = """() => {
-        const wide = []
-        const walk = root => root.querySelectorAll("*").forEach(each => {
-            if (each.shadowRoot) walk(each.shadowRoot)
-            if (each.getBoundingClientRect().right > innerWidth + 1) wide.push(each.outerHTML.slice(0, 80))
-        })
-        walk(document)
-        return wide
-    }"""
-    assert small.evaluate(wide) == []
+    assert small.evaluate(WIDE) == []
+
+
+def test_choices_beside_a_heading_leave_it_its_line(small):
+    open_tab(small, "Explore")
+    heading = small.get_by_role("heading", name="Insertion gain", exact=True).filter(visible=True)
+    expect(heading).to_be_visible()
+    chip = small.get_by_text("paper's run", exact=True)
+    expect(chip).to_be_visible()
+    wait_until_at_rest(small)
+    words, beside = heading.bounding_box(), chip.bounding_box()
+    assert words["height"] < 40
+    assert words["x"] + words["width"] <= beside["x"]
+    for name in ("Bands shown", "Over the supports", "Against"):
+        box = small.get_by_role("combobox", name=name).bounding_box()
+        is_beside = beside["x"] + beside["width"] <= box["x"]
+        assert is_beside or words["y"] + words["height"] <= box["y"]
+        assert box["x"] + box["width"] <= 1024
+
+
+def test_long_verdicts_leave_room_for_names(small):
+    open_tab(small, "Specification")
+    names = small.get_by_role("listitem").locator(".name")
+    expect(names).to_have_count(MOST_PINNED + 1)
+    wait_until_at_rest(small)
+    boxes = [name.bounding_box() for name in names.all()]
+    assert min(box["width"] for box in boxes) > 150
+    assert max(box["height"] for box in boxes) < 100
 
 
 def test_arrows_that_a_narrower_window_needed_hide_no_tab_of_a_wider_one(small):
@@ -95,6 +170,27 @@ def test_arrows_that_a_narrower_window_needed_hide_no_tab_of_a_wider_one(small):
     expect(arrows.first).to_be_hidden()
     wait_until_at_rest(small)
     assert tabs.first.bounding_box()["x"] >= small.locator(".MuiTabs-scroller").first.bounding_box()["x"]
+
+
+TEXT_SIZES = """name => {
+    const axes = Bokeh.documents[0].get_model_by_name(name).below
+    return axes.map(axis => [axis.major_label_text_font_size, axis.axis_label_text_font_size]).flat()
+}"""
+
+
+def test_text_of_axes_follows_a_window_that_is_resized(small):
+    open_tab(small, "Explore")
+    for width, place in ((1024, 0), (1440, 1), (1024, 0)):
+        small.set_viewport_size({"width": width, "height": 768})
+        small.wait_for_function(
+            f"([name, sizes]) => String(({TEXT_SIZES})(name)) === sizes",
+            arg=["insertion_gain_figure", f"{TICK_SIZES[place]},{AXIS_SIZES[place]}"],
+        )
+    small.get_by_label("Toggle theme").click()
+    wait_until_at_rest(small)
+    assert small.evaluate(TEXT_SIZES, "insertion_gain_figure") == [TICK_SIZES[0], AXIS_SIZES[0]]
+    small.get_by_label("Toggle theme").click()
+    wait_until_at_rest(small)
 
 
 def test_formulas_are_set_and_none_has_a_scroll_bar(small):
@@ -136,8 +232,8 @@ def test_words_of_a_verdict_are_legible_in_both_themes(small):
     before = verdict.evaluate("words => getComputedStyle(words).color")
     small.get_by_label("Toggle theme").click()
     expect(verdict).not_to_have_css("color", before)
-    wait_until_at_rest(small)
-    assert verdict.evaluate(CONTRAST) >= 4.5
+    # ink and paper change in two steps
+    small.wait_for_function(f"words => ({CONTRAST})(words) >= 4.5", arg=verdict.element_handle())
     small.get_by_label("Toggle theme").click()
     expect(verdict).to_have_css("color", before)
 
@@ -205,3 +301,22 @@ def test_a_data_sheet_with_everything_on_prints_on_one_page(chromium, bands):
     too_wide = "cells => cells.filter(each => each.scrollWidth > each.clientWidth + 1).length"
     assert page.locator("th, td").evaluate_all(too_wide) == 0
     page.close()
+
+
+def test_a_status_that_is_cut_unfolds_with_the_focus(small):
+    open_tab(small, "Explore")
+    status = small.get_by_role("status").filter(has_text=SOLVED).first
+    expect(status).to_be_visible()
+    status.evaluate("line => { line.textContent = 'Long words. '.repeat(60) }")
+    line = small.get_by_text("Long words.").first
+    assert line.evaluate("line => line.scrollWidth > line.clientWidth")
+    line.focus()
+    assert line.evaluate("line => line.scrollWidth <= line.clientWidth && line.clientHeight > 40")
+    # its last line covers the tabs, and nothing covers it
+    on_top = """line => {
+        const {left, bottom} = line.getBoundingClientRect()
+        return line.getRootNode().elementFromPoint(left + 2, bottom - 6) === line
+    }"""
+    assert line.evaluate(on_top)
+    line.blur()
+    assert line.evaluate("line => line.clientHeight <= 32")

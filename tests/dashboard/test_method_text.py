@@ -8,8 +8,10 @@ import pytest
 
 import trackig_core as tig
 from dashboard import assets
-from dashboard.fields import FIELDS
+from dashboard.fields import FIELDS, GROUND, SUSPENDED
 from dashboard.report.html_report import FREQUENCIES
+from dashboard.session import surroundings
+from dashboard.teaching.left_out import WHAT_IT_IS_NOT
 from trackig_core.analysis.asymptotes import PER_RESONANCE
 from trackig_core.track.viscoelastic_law import fit_loss_factor
 
@@ -46,6 +48,18 @@ def test_markdown_leaves_equations_alone(equation):
     assert "\n\n" not in equation
     assert equation.count("{") == equation.count("}")
     assert equation.count(r"\left") == equation.count(r"\right")
+
+
+def test_the_method_and_the_controls_say_what_the_fullest_model_is_not():
+    section = TEXT.split("## What the simplified model leaves out")[1].split("\n## ")[0]
+    limits = section.split("What the fullest model is not:")[1]
+    controls = " ".join(surroundings.WORDS.values())
+    for limit in ("not feel each other", "tunnel", "receptor", "floating slab", "No load moves"):
+        assert limit in limits
+        assert limit in controls
+        assert limit.lower() in WHAT_IT_IS_NOT.lower()
+    for group in (SUSPENDED, GROUND):
+        assert f"*{group}*" in section
 
 
 def test_no_html_is_meant():

@@ -117,7 +117,7 @@ class Ladder:
         ]
         low, high = NOISE_BANDS
         return (
-            f"Between {low} and {high} Hz the simplified model of this design moves by up to "
+            f"Between {low} and {high} Hz the simplified model of this design moves, step by step, by up to "
             f"{', '.join(steps[:-1])} and {steps[-1]}; the one-dimensional model is up to "
             f"{_worst(self.one_dimensional.difference)} from it."
         )

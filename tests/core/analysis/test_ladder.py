@@ -77,7 +77,7 @@ def test_the_sentence_says_what_each_rung_costs_and_where():
     noise = slice(tig.BAND_LABELS.index("16"), tig.BAND_LABELS.index("250") + 1)
     assert found.cost == np.abs(found.rungs[-1].difference[noise]).max()
     assert found.sentence.startswith(
-        "Between 16 and 250 Hz the simplified model of this design moves by up to 0."
+        "Between 16 and 250 Hz the simplified model of this design moves, step by step, by up to 0."
     )
     for before, after in zip(found.rungs, found.rungs[1:], strict=False):
         step = np.abs(after.insertion_gain - before.insertion_gain)[noise].max()

@@ -7,6 +7,7 @@ import pytest
 
 import trackig_core as tig
 from trackig_core.decide.questions import Answer, Question
+from trackig_core.decide.solving import joined
 from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.track.design import PATHS
 from trackig_core.track.fields import SEARCHED_RANGES, SLIDER_RANGES
@@ -243,3 +244,10 @@ def test_kept_answers_about_a_ground_come_out_of_a_study_again():
     study = tig.Study.from_toml(tig.Study(BOGIE, answers=(answer,)).to_toml())
     assert study.answers == (answer,)
     assert study.answers[0].holds()
+
+
+def test_parts_solved_apart_are_joined_with_their_references():
+    apart = [solve_many([BLOCK, SPRUNG]), solve_many([BOGIE])]
+    assert [part.stiff_ratio is None for part in apart] == [True, False]
+    together = solve_many([BLOCK, SPRUNG, BOGIE])
+    np.testing.assert_array_equal(joined(apart).gain_for("stiff"), together.gain_for("stiff"))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
+from dashboard import theme
 from dashboard.compute import checker as checker_module
 from dashboard.compute.checker import VerificationRunner, check
 from dashboard.figures.verification import (
@@ -161,6 +162,26 @@ def test_convergence_is_drawn_with_its_slopes(outcome, view, summary):
     lengths = view.element.errors.data
     np.testing.assert_allclose(lengths["length"], 1000 * 0.75 / theory.elements_per_bay)
     assert view.element.model.select_one({"name": "run_element"}).location == pytest.approx(250)
+
+
+def test_dots_at_the_ends_of_convergence_are_whole(outcome, view, summary):
+    low_frame = 150  # px of the 300 px of a figure that axis, legend and title leave at worst
+    for name in tig.PRESETS:
+        outcome.verified = check(summary(name))
+        for figure, across, *heights in (
+            (view.time_step, "step", "first", "second"),
+            (view.element, "length", "error"),
+        ):
+            data = figure.errors.data
+            for ends, values in (
+                (figure.model.x_range, data[across]),
+                (figure.model.y_range, np.concatenate([data[key] for key in heights])),
+            ):
+                decades = np.log(ends.end / ends.start)
+                room = np.log([values.min() / ends.start, ends.end / values.max()]) / decades
+                assert (low_frame * room > theme.DOT_SIZE / 2).all()
+                # and the curves fill most of what is there
+                assert (room < 0.2).all()
 
 
 def test_damping_is_drawn_against_what_was_stated(outcome, view, summary):
