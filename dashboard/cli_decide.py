@@ -19,6 +19,7 @@ import threading
 from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import trackig_core as tig
@@ -77,16 +78,14 @@ def add_commands(commands, shell):
     shell : Shell
         What they need of the command line.
     """
-    _add_range(commands, shell)
-    _add_sensitivity(commands, shell)
-    _add_tolerance(commands, shell)
-    _add_map(commands, shell)
-    _add_find(commands, shell)
+    for add in (_add_range, _add_sensitivity, _add_tolerance, _add_map, _add_find):
+        add(partial(_command, commands, shell))
 
 
-def _command(commands, shell, name, asked, **words):
-    """Add a command that asks what ``asked`` makes of its options."""
-    command = shell.add(commands, name, lambda options: _run(shell, asked, options), **words)
+def _command(commands, shell, name, kind_of=None, **words):
+    """Add a command that asks a question of its name, or of the kind that its options make it."""
+    kind_of = kind_of or (lambda _: name)
+    command = shell.add(commands, name, lambda options: _run(shell, kind_of(options), options), **words)
     command.add_argument("study", type=Path, metavar="STUDY", help="a study, FILE.toml")
     command.add_argument("--design", metavar="NAME", help="a pinned design, in place of the current one")
     command.add_argument(
@@ -96,6 +95,9 @@ def _command(commands, shell, name, asked, **words):
         help="greatest rail deflection [m], in place of the specification's own",
     )
     command.add_argument(
+        "--scheduler", metavar="ADDRESS", help="solve on a Dask cluster, such as tcp://10.0.0.5:8786"
+    )
+    command.add_argument(
         "--csv", type=Path, metavar="FILE", help="write all figures as CSV, in SI, to six figures"
     )
     command.add_argument("--json", type=Path, metavar="FILE", help="write question and answer as JSON, in SI")
@@ -103,89 +105,59 @@ def _command(commands, shell, name, asked, **words):
     return command
 
 
-def _add_range(commands, shell):
-    command = _command(
-        commands,
-        shell,
-        "range",
-        lambda options: _asked("range", fields=options.fields, ranges=dict(options.ranges)),
-        help="Print where the design complies along each field, all others held.",
-    )
-    command.add_argument(
-        "--field",
-        action="append",
-        dest="fields",
-        metavar="FIELD",
-        help="this field, such as boot_stiffness or ground.stiffness; may be given again",
-    )
+class _ByField(argparse.Action):
+    """Keeps what options of the form FIELD=VALUE give, by field."""
+
+    def __call__(self, parser, options, values, option_string=None):  # noqa: ARG002
+        """Note a pair of field and value."""
+        field, value = values
+        setattr(options, self.dest, {**(getattr(options, self.dest) or {}), field: value})
+
+
+def _add_repeated(command, option, action="append", **words):
+    """Add an option that may be given again."""
+    words["help"] += "; may be given again"
+    command.add_argument(option, action=action, **words)
+
+
+FIELD_HELP = "this field, such as boot_stiffness or ground.stiffness"
+
+
+def _add_range(add):
+    command = add("range", help="Print where the design complies along each field, all others held.")
+    _add_repeated(command, "--field", dest="fields", metavar="FIELD", help=FIELD_HELP)
     _add_ranges(command)
-    _add_scheduler(command)
 
 
-def _add_sensitivity(commands, shell):
-    def settings(options):
-        if not options.tolerances and options.production is None:
-            return _asked("sensitivity", changes=options.change)
-        return _asked(
-            "sobol",
-            tolerances=dict(options.tolerances),
-            production=_specimens(options),
-            figures=options.figures,
-            samples=options.samples,
-            seed=options.seed,
-        )
-
-    command = _command(
-        commands,
-        shell,
+def _add_sensitivity(add):
+    command = add(
         "sensitivity",
-        settings,
+        lambda options: "sobol" if options.tolerances or options.production else "sensitivity",
         help="Print what changes when each field does, or with tolerances, Sobol indices over these.",
     )
     command.add_argument(
-        "--change", type=_share, metavar="SHARE", help="change of each field, 10%% unless given"
+        "--change",
+        type=_share,
+        dest="changes",
+        metavar="SHARE",
+        help="change of each field, 10%% unless given",
     )
-    _add_tolerances(command)
-    command.add_argument("--samples", type=int, metavar="N", help="base samples, a power of two")
+    _add_scatter(command, "base samples, a power of two")
     _add_figures(command)
-    _add_seed(command)
-    _add_scheduler(command)
 
 
-def _add_tolerance(commands, shell):
-    command = _command(
-        commands,
-        shell,
+def _add_tolerance(add):
+    command = add(
         "tolerance",
-        lambda options: _asked(
-            "tolerance",
-            tolerances=dict(options.tolerances),
-            production=_specimens(options),
-            samples=options.samples,
-            seed=options.seed,
-        ),
         help="Print how sure the design is to comply when its fields scatter; exit with 1 if it never does.",
     )
-    _add_tolerances(command)
-    command.add_argument("--samples", type=int, metavar="N", help="samples that are drawn, 10000 by default")
-    _add_seed(command)
-    _add_scheduler(command)
+    _add_scatter(command, "samples that are drawn, 10000 by default")
     _add_parquet(command)
 
 
-def _add_map(commands, shell):
-    command = _command(
-        commands,
-        shell,
+def _add_map(add):
+    command = add(
         "map",
-        lambda options: _asked(
-            "map",
-            x_field=options.x_field,
-            y_field=options.y_field,
-            figures=options.figures,
-            ranges=dict(options.ranges),
-            points=options.points,
-        ),
         help="Compute figures over two fields; exit with 1 if no design of the map complies.",
         epilog=(
             "The table goes to --csv; printed is what it says in one sentence. Fields are numbers of the "
@@ -200,100 +172,85 @@ def _add_map(commands, shell):
     command.add_argument(
         "--points", type=_points, metavar="NXxNY", help="points along x and y, 200x200 by default"
     )
-    _add_scheduler(command)
     _add_parquet(command)
 
 
-def _add_find(commands, shell):
-    command = _command(
-        commands,
-        shell,
-        "find",
-        lambda options: _asked(
-            "find",
-            free=dict(options.free),
-            choices=_choices(shell, options),
-            objectives=options.objectives,
-            cost=dict(options.costs),
-            population=options.population,
-            generations=options.generations,
-            seed=options.seed,
-        ),
-        help="Search for designs that comply, and the best of them; exit with 1 if none does.",
+def _add_find(add):
+    command = add(
+        "find", help="Search for designs that comply, and the best of them; exit with 1 if none does."
     )
-    command.add_argument(
+    _add_repeated(
+        command,
         "--free",
-        action="append",
+        _ByField,
         type=_free,
-        default=[],
         metavar="FIELD[=LOW..HIGH]",
-        help="a field that is free, over its slider's range unless one is given [SI]; may be given again",
+        help="a field that is free, over its slider's range unless one is given [SI]",
     )
-    command.add_argument(
+    _add_repeated(
+        command,
         "--choose",
-        action="append",
         type=Path,
         default=[],
         metavar="FILE.csv",
-        help="a catalogue: one product a row, fields [SI] and cost in columns; may be given again",
+        help="a catalogue: one product a row, fields [SI] and cost in columns",
     )
-    command.add_argument(
+    _add_repeated(
+        command,
         "--component",
-        action="append",
         choices=KINDS,
         default=[],
         dest="components",
-        help="choose from the catalogue's components of this kind; may be given again",
+        help="choose from the catalogue's components of this kind",
     )
     command.add_argument(
         "--catalogue", type=Path, metavar="FILE.toml", help="that catalogue, in place of the bundled one"
     )
     command.add_argument("--rails", metavar="NAME,NAME", help="rails to choose from, such as 54E1,60E1")
-    command.add_argument(
+    _add_repeated(
+        command,
         "--objective",
-        action="append",
         dest="objectives",
         metavar="NAME",
-        help="what is sought: margin, deflection, level, cost, or a field; may be given again",
+        help="what is sought: margin, deflection, level, cost, or a field",
     )
-    command.add_argument(
+    _add_repeated(
+        command,
         "--cost",
-        action="append",
+        _ByField,
         type=_field_number,
-        default=[],
-        dest="costs",
         metavar="FIELD=PER_UNIT",
-        help="cost per SI unit of a field, for the objective cost; may be given again",
+        help="cost per SI unit of a field, for the objective cost",
     )
     command.add_argument(
         "--population", type=int, metavar="N", help="designs of a generation, 100 by default"
     )
     command.add_argument("--generations", type=int, metavar="N", help="generations, 60 by default")
     _add_seed(command)
-    _add_scheduler(command)
 
 
 def _add_ranges(command):
-    command.add_argument(
+    _add_repeated(
+        command,
         "--range",
-        action="append",
+        _ByField,
         type=_range,
-        default=[],
         dest="ranges",
         metavar="FIELD=LOW..HIGH",
-        help="range of a field [SI], in place of its slider's; may be given again",
+        help="range of a field [SI], in place of its slider's",
     )
 
 
-def _add_tolerances(command):
-    command.add_argument(
+def _add_scatter(command, samples):
+    """Add what scatters, and how it is drawn; ``samples`` says what their number is."""
+    _add_repeated(
+        command,
         "--tolerance",
-        action="append",
+        _ByField,
         type=_tolerance,
-        default=[],
         dest="tolerances",
         metavar="FIELD=SHARE",
-        help="10%% or 0.1: anything within; normal:5%%: that standard deviation; may be given again",
+        help="10%% or 0.1: anything within; normal:5%%: that standard deviation",
     )
     command.add_argument(
         "--production",
@@ -301,26 +258,22 @@ def _add_tolerances(command):
         metavar="FILE.csv",
         help="measured values, one specimen a row, fields [SI] in columns",
     )
+    command.add_argument("--samples", type=int, metavar="N", help=samples)
+    _add_seed(command)
 
 
 def _add_figures(command):
-    command.add_argument(
+    _add_repeated(
+        command,
         "--figure",
-        action="append",
         dest="figures",
         metavar="NAME",
-        help="margin, level, deflection, loaded_track, coupled_block or a band, as 63; may be given again",
+        help="margin, level, deflection, loaded_track, coupled_block or a band, as 63",
     )
 
 
 def _add_seed(command):
     command.add_argument("--seed", type=int, metavar="N", help="seed, 0 unless given")
-
-
-def _add_scheduler(command):
-    command.add_argument(
-        "--scheduler", metavar="ADDRESS", help="solve on a Dask cluster, such as tcp://10.0.0.5:8786"
-    )
 
 
 def _add_parquet(command):
@@ -335,19 +288,27 @@ def _add_parquet(command):
     )
 
 
-def _asked(kind, **settings):
-    """Return the kind of question, and the settings that were given."""
-    return kind, {name: value for name, value in settings.items() if value not in (None, {}, [])}
+def _settings(shell, kind, options):
+    """Return the settings of a question that were given: options go by the names of what they set."""
+    # slow to load, and no other command needs it
+    from trackig_core.decide import questions
+
+    given = {name: getattr(options, name, None) for name in questions.KINDS[kind].settings}
+    if given.get("production") is not None:
+        given["production"] = _table(options.production)
+    if "choices" in given:
+        given["choices"] = _choices(shell, options)
+    return {name: value for name, value in given.items() if value not in (None, {}, [])}
 
 
-def _run(shell, asked, options):
+def _run(shell, kind, options):
     outputs = [path for path in (options.csv, options.json) if path is not None]
     if outputs.count(STANDARD_OUTPUT) > 1:
         raise DecideError("--csv - --json -: standard output takes one of them")
     for path in outputs:
         shell.refuse_to_lose(path, options.force, options.study)
     try:
-        return _answer(shell, *asked(options), options)
+        return _answer(shell, kind, _settings(shell, kind, options), options)
     except tig.SolveCancelled:
         return STOPPED
     except (tig.DesignError, tig.StudyError, DecideError):
@@ -629,11 +590,6 @@ def _points(text):
         return [int(x), int(y)]
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text[:40]!r}: write NXxNY, such as 200x200") from None
-
-
-def _specimens(options):
-    """Return the table of production samples, if there is one."""
-    return None if options.production is None else _table(options.production)
 
 
 def _choices(shell, options):

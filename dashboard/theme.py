@@ -192,6 +192,7 @@ select.bk-input option { color: var(--panel-on-background-color); background: va
 
 CHECKS_CSS = """
 .bk-input-group { flex-wrap: wrap; }
+.bk-input-group.bk-inline > *:not(:first-child) { margin-left: 0; }
 label { font-size: 15px; margin-right: 14px; color: var(--panel-on-background-color); }
 """
 DRAWING_CSS = """
@@ -244,6 +245,7 @@ PLAYER_CSS = """
 }
 .noUi-target { background: color-mix(in srgb, var(--panel-on-background-color) 20%, transparent); }
 .noUi-handle { border-color: currentColor; }
+label[for] { position: absolute; clip-path: inset(50%); white-space: nowrap; }
 """
 """The controls beside a moving drawing, which run in the browser alone."""
 

@@ -94,7 +94,7 @@ class Exchange(Scripted):
             session=secrets.token_hex(8), width=0, height=0, margin=0, styles={"position": "absolute"}
         )
         self._snapshot, self._shelf = snapshot, shelf or Shelf()
-        self._openers = {}
+        self._openers, self._key_listeners = {}, {}
         self._waiting = False
         self._changed = False
         self._note()
@@ -121,6 +121,10 @@ class Exchange(Scripted):
     def on_file(self, purpose, callback):
         """Hand the bytes of whatever file is opened for a purpose, one of :data:`MOST`, to a callback."""
         self._openers[purpose] = callback
+
+    def on_key(self, figure, callback):
+        """Hand the keys that a figure of a name is operated with to a callback: key, whether with Shift."""
+        self._key_listeners[figure] = callback
 
     def save(self, name, data, kind="text/csv"):
         """Have the browser save a file.
@@ -160,6 +164,9 @@ class Exchange(Scripted):
                 self._tell_of_link(copied)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
                 self._openers[purpose](data)
+            case {"kind": "key", "figure": str(figure), "key": str(key), "shift": bool(shift)}:
+                if figure in self._key_listeners:
+                    self._key_listeners[figure](key, shift)
 
     def _tell_of_link(self, copied):
         left_out = self._snapshot.left_out

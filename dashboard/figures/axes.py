@@ -183,9 +183,18 @@ def blank_figure(aria_label="", **options):
     return plot
 
 
-def dress(plot, aria_label):
-    """Give a figure the tools and the sizes of text that all have, and a name that screen readers tell."""
+KEYS = ("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Enter")
+"""Keys by which a place is chosen in a figure, as browsers call them."""
+
+
+def dress(plot, aria_label, keys=()):
+    """Give a figure the tools and the sizes of text that all have, and a name that screen readers tell.
+
+    Keys are those that it is operated with while it has the keyboard's focus.
+    """
     plot.html_attributes = {"role": "figure", "aria-label": aria_label}
+    if keys:
+        plot.html_attributes |= {"aria-keyshortcuts": " ".join(keys)}
     plot.tools = [PanTool(), BoxZoomTool(), WheelZoomTool(dimensions="width"), ResetTool(), SaveTool()]
     plot.update(toolbar_location="right", sizing_mode="stretch_width")
     plot.toolbar.logo = None

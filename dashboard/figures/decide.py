@@ -15,6 +15,7 @@ from bokeh.models import (
     HoverTool,
     LinearColorMapper,
     Range1d,
+    Scatter,
     TapTool,
 )
 from bokeh.palettes import RdBu11, Viridis256
@@ -25,6 +26,7 @@ import trackig_core as tig
 from dashboard import theme
 from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.axes import (
+    KEYS,
     LEVEL_ROOM,
     LEVEL_STEP,
     AxisEnds,
@@ -37,8 +39,13 @@ from dashboard.figures.axes import (
 from dashboard.figures.legends import Legend, legend_above, with_legend
 from dashboard.figures.swatches import marker_svg, swatch_svg
 
-DIVERGING = tuple(RdBu11[::-1])
-"""Colours from less to more, white between them; told apart by colour-blind readers."""
+LESS, MORE = RdBu11[8], RdBu11[2]
+"""Colours of less and of more, seen on light and on dark paper and told apart by colour-blind readers."""
+
+DIVERGING = tuple(
+    f"{LESS if step < 0 else MORE}{round(255 * abs(step)):02x}" for step in np.linspace(-1.0, 1.0, 11)
+)
+"""Colours from less to more, the paper itself between them: the less a change, the less is to be seen."""
 
 CELL = 0.9
 """Height of a cell of a heat map, of the room that a field has [-]."""
@@ -260,6 +267,8 @@ class PercentileFigure:
 class MapFigure:
     """A figure of designs over two of their fields, with the edge of compliance.
 
+    Designs are chosen by a tap, or by keys that move a cross over the points of the map.
+
     Parameters
     ----------
     on_tap : callable
@@ -273,11 +282,18 @@ class MapFigure:
         What is drawn, in words.
     layout : bokeh.models.Column or None
         The figure, and its legend below it.
+    marks : bokeh.models.ColumnDataSource
+        Named ``map_marks``: where the current design and the pinned ones lie [display units].
+    cross : bokeh.models.ColumnDataSource
+        Named ``map_cross``: where keys have moved the cross [display units]; nowhere as long as none has.
     """
 
     def __init__(self, on_tap):
         self._on_tap = on_tap
         self.model = self.legend = self.layout = None
+        self._found, self._edges, self._place = None, [], None
+        self.marks = ColumnDataSource(name="map_marks", data={name: [] for name in MARK_COLUMNS})
+        self.cross = ColumnDataSource(name="map_cross", data={"x": [], "y": []})
 
     def show(self, found, figure_name, words, designs, limits):
         """Draw a map anew.
@@ -308,7 +324,7 @@ class MapFigure:
             y_axis_label=y_field.labelled,
             stylesheets=[theme.TALL],
         )
-        dress(plot, f"{words} over {x_field.label} and {y_field.label}")
+        dress(plot, f"{words} over {x_field.label} and {y_field.label}; {MAP_KEYS}", KEYS)
         for axis, field in ((plot.xaxis, x_field), (plot.yaxis, y_field)):
             if field.logarithmic:
                 show_one_two_five(axis)
@@ -323,14 +339,70 @@ class MapFigure:
         plot.add_tools(
             HoverTool(renderers=[image], tooltips=[("x", "$x"), ("y", "$y"), (words, "@image{0.00}")])
         )
-        entries = []
+        self._found, self._edges, self._place = found, [], None
         for name, limit in limits.items():
             if limit is not None and name in found.figures:
-                entries.append(_draw_edge(plot, x, y, found.figures[name] - limit, *EDGES[name]))
+                self._edges.append(_draw_edge(plot, x, y, found.figures[name] - limit, *EDGES[name]))
+        plot.scatter(
+            source=self.marks, size=14, marker="marker", fill_color="colour", line_color="white", line_width=2
+        )
+        for colour, width in CROSS_STROKES:
+            plot.scatter(source=self.cross, size=26, marker="cross", line_color=colour, line_width=width)
+        self.cross.data = {"x": [], "y": []}
         self.legend = Legend("map_figure")
-        self.legend.show([*entries, *_mark(plot, found, designs)])
+        self.mark(designs)
         self.layout = with_legend(plot, self.legend)
         plot.on_event(Tap, lambda event: self._on_tap(event.x, event.y))
+
+    def mark(self, designs):
+        """Mark where designs (DesignResult) lie on a map that is drawn; others have no place on it."""
+        found = self._found
+        if found is None:
+            return
+        names = (found.x_field, found.y_field)
+        placed = [each for each in designs if _is_placed(each.design, names)]
+        x, y = ([each.design.value(name) / ASKED_FIELDS[name].factor for each in placed] for name in names)
+        markers = ["circle" if each.key is None else "diamond" for each in placed]
+        self.marks.data = {"x": x, "y": y, "marker": markers, "colour": [each.colour for each in placed]}
+        entries = [
+            (each.name, marker_svg(each.colour, marker)) for each, marker in zip(placed, markers, strict=True)
+        ]
+        self.legend.show([*self._edges, *entries])
+
+    def move(self, key, far):
+        """Move the cross by a key, by one point of the map or, far, by ten.
+
+        Returns
+        -------
+        (int, int) or None
+            Column and row of the point where it is; None as long as there is no map.
+        """
+        found = self._found
+        if found is None:
+            return None
+        across, up = STEPS.get(key, (0, 0))
+        column, row = self._place or self._first_place()
+        points = STRIDE if far else 1
+        self._place = column, row = (
+            min(max(column + points * across, 0), found.x.size - 1),
+            min(max(row + points * up, 0), found.y.size - 1),
+        )
+        self.cross.data = {
+            "x": [found.x[column] / ASKED_FIELDS[found.x_field].factor],
+            "y": [found.y[row] / ASKED_FIELDS[found.y_field].factor],
+        }
+        return self._place
+
+    def _first_place(self):
+        """Return column and row of the map that are nearest to the current design, else its middle."""
+        found = self._found
+        return tuple(
+            int(np.abs(values - value).argmin()) if isinstance(value, float) else values.size // 2
+            for values, value in (
+                (found.x, found.design.value(found.x_field)),
+                (found.y, found.design.value(found.y_field)),
+            )
+        )
 
 
 def _draw_edge(plot, x, y, over, words, dash):
@@ -343,26 +415,41 @@ def _draw_edge(plot, x, y, over, words, dash):
     return words, swatch_svg(theme.SPECIFICATION, dash)
 
 
-def _mark(plot, found, designs):
-    """Mark where designs lie; return what the legend says of them."""
-    entries = []
-    for each in designs:
-        place = [each.design.value(name) for name in (found.x_field, found.y_field)]
-        if not all(isinstance(value, float) for value in place):
-            continue  # a measured curve or a missing block has no place on the map
-        marker = "circle" if each.key is None else "diamond"
-        plot.scatter(
-            x=[place[0] / ASKED_FIELDS[found.x_field].factor],
-            y=[place[1] / ASKED_FIELDS[found.y_field].factor],
-            size=14,
-            marker=marker,
-            fill_color=each.colour,
-            line_color="white",
-            line_width=2,
-        )
-        entries.append((each.name, marker_svg(each.colour, marker)))
-    return entries
+def _is_placed(design, names):
+    """Return whether a design has single numbers there: a curve or a missing block has no place on a map."""
+    return all(isinstance(design.value(name), float) for name in names)
 
+
+MARK_COLUMNS = ("x", "y", "marker", "colour")
+
+CROSS_STROKES = (("white", 5), ("black", 2))
+"""A cross that is seen on any colour: its strokes from back to front, with their widths [px]."""
+
+STEPS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
+"""Points across and up that a key moves by."""
+
+STRIDE = 10
+"""Points that a key moves by with Shift [-]."""
+
+CHOSEN_SIZE = 15
+"""Size of the dot of a design that is chosen [px]."""
+
+MOST_PLAIN = 3
+"""Curves that are told apart without being seen through [-]."""
+
+DOTS = {
+    "no other beats it": theme.COUPLED_BLOCK,
+    "complies": theme.LOADED_TRACK,
+    "fails": theme.PRESET_GHOST,
+    "chosen": theme.THIS_DESIGN,
+}
+"""Colours of the designs of a search, by what they are."""
+
+CLOUD_KEYS = "arrow keys go through the best designs, with Shift several are chosen, Enter takes one"
+"""What screen readers say of the keys of a search's pictures."""
+
+MAP_KEYS = "arrow keys move a cross, Enter takes the design under it"
+"""What screen readers say of the map's keys."""
 
 EDGES = {"margin": ("just complies", ()), "deflection": ("sinks just as far as allowed", theme.SECOND_DASH)}
 """What the edges of compliance are called, and their dashes, by the figure that is limited."""
@@ -385,6 +472,8 @@ class CloudFigure:
         Named ``found_gains``: insertion gain of the designs that are selected.
     objectives, fields, gains : bokeh.plotting.figure
         The pictures.
+    legend : Legend
+        What the colours of the first two mean.
     """
 
     def __init__(self, on_select):
@@ -395,6 +484,7 @@ class CloudFigure:
         )
         self.curves = ColumnDataSource(name="found_gains", data={"xs": [], "ys": []})
         self.objectives = self._picture("objectives_figure", "Designs by their objectives", theme.MEDIUM)
+        self.legend = Legend("objectives_figure")
         self.fields = self._picture("fields_figure", "Designs by their fields", theme.MEDIUM)
         self.gains = blank_figure(
             name="found_gain_figure",
@@ -419,7 +509,7 @@ class CloudFigure:
             y_axis_label="",
             stylesheets=[height],
         )
-        dress(plot, words)
+        dress(plot, f"{words}; {CLOUD_KEYS}", KEYS)
         plot.add_tools(TapTool(), BoxSelectTool(persistent=False))
         return plot
 
@@ -433,6 +523,10 @@ class CloudFigure:
             line_color=None,
             nonselection_fill_alpha=0.1,
         )
+        # among hundreds of dots, the one that is chosen is found by its size and its ring
+        dots.selection_glyph = Scatter(
+            x="x", y="y", size=CHOSEN_SIZE, fill_color=theme.THIS_DESIGN, line_color="white", line_width=2
+        )
         self.objectives.add_tools(
             HoverTool(renderers=[dots], tooltips=[("x", "@x{0.00}"), ("y", "@y{0.00}")])
         )
@@ -443,14 +537,17 @@ class CloudFigure:
             line_color="colour",
             line_alpha=0.35,
             selection_line_alpha=1,
+            selection_line_color=theme.THIS_DESIGN,
+            selection_line_width=theme.THIN_LINE_WIDTH,
             nonselection_line_alpha=0.04,
         )
         _fit(self.fields.y_range, np.array([0.0, 1.0]))
         self.fields.yaxis.visible = False
         self.fields.ygrid.visible = False
-        self.gains.multi_line(
-            xs="xs", ys="ys", source=self.curves, line_color=theme.THIS_DESIGN, line_alpha=0.5
+        self._curves = self.gains.multi_line(
+            xs="xs", ys="ys", source=self.curves, line_width=theme.THIN_LINE_WIDTH
         )
+        self.legend.show([(words, marker_svg(colour, "circle")) for words, colour in DOTS.items()])
         self.limit = ColumnDataSource(name="found_limit", data=BANDS | {"limit": NO_LIMIT})
         _draw_limit(self.gains, self.limit)
 
@@ -474,15 +571,18 @@ class CloudFigure:
         scales : (float, float)
             What turns the objectives into display units.
         """
+        chosen = self._chosen_rows()
+        kept = chosen[_still_there(self._found, found, chosen)]
         self._found, self._levels = found, levels
-        rows = _drawn_rows(found)
+        rows = _drawn_rows(found, kept)
         x, y = found.values[rows, 0] * scales[0], found.values[rows, -1] * scales[1]
         front = np.isin(rows, found.front)
         along = [_places(found, name, rows, *each) for name, each in ends.items()]
         along += [_places_by_name(names)[rows] for names in found.chosen.values()]
         places = np.stack(along, axis=-1)
         axis = list(range(places.shape[1]))
-        self.designs.selected.indices = []
+        if not kept.size:
+            self.designs.selected.indices = []
         self.designs.data = {
             "row": rows,
             "x": x,
@@ -490,7 +590,7 @@ class CloudFigure:
             "xs": [axis] * len(rows),
             "ys": list(places),
             "colour": [
-                theme.COUPLED_BLOCK if best else theme.THIS_DESIGN if complies else theme.PRESET_GHOST
+                DOTS["no other beats it" if best else "complies" if complies else "fails"]
                 for best, complies in zip(front, found.complies[rows], strict=True)
             ],
             "size": np.where(front, 9, 5),
@@ -504,7 +604,32 @@ class CloudFigure:
         self.fields.xaxis.ticker = FixedTicker(ticks=axis)
         self.fields.xaxis.major_label_overrides = dict(zip(axis, _staggered(labels), strict=True))
         self.limit.data = BANDS | {"limit": limit}
-        self._selected(None, None, [])
+        self._select([int(np.flatnonzero(rows == row)[0]) for row in kept])
+
+    def _select(self, places):
+        """Select designs by their places; a document that holds changes back does not tell of them."""
+        self.designs.selected.indices = places
+        self._selected(None, None, places)
+
+    def _chosen_rows(self):
+        """Return which designs of the search are selected (selected,)."""
+        return np.asarray(self.designs.data["row"], dtype=int)[self.designs.selected.indices]
+
+    def move(self, key, far):
+        """Choose the next of the best designs by a key, from left to right; far, keep the others too."""
+        across, up = STEPS.get(key, (0, 0))
+        if self._found is None or not (across or up):
+            return
+        rows, chosen = self.designs.data["row"], self.designs.selected.indices
+        best = self._found.front if self._found.front.size else [self._found.closest]
+        places = np.flatnonzero(np.isin(rows, best))
+        order = places[self.designs.data["x"][places].argsort(kind="stable")].tolist()
+        if chosen and chosen[0] in order:
+            place = min(max(order.index(chosen[0]) + across + up, 0), len(order) - 1)
+        else:
+            place = 0 if across + up > 0 else len(order) - 1
+        others = [each for each in chosen if each != order[place]] if far else []
+        self._select([order[place], *others])
 
     def _selected(self, _attribute, _old, indices):
         """Draw insertion gain of what is selected, of the front if nothing is."""
@@ -514,6 +639,10 @@ class CloudFigure:
         chosen = rows[indices] if len(indices) else self._found.front
         chosen = chosen[:: max(1, -(-len(chosen) // MOST_CURVES))]
         levels = self._levels[chosen]
+        self._curves.glyph.update(
+            line_color=DOTS["chosen"] if len(indices) else DOTS["no other beats it"],
+            line_alpha=1.0 if len(levels) <= MOST_PLAIN else 0.4,
+        )
         self.curves.data = {"xs": [tig.BAND_CENTRES] * len(levels), "ys": list(levels)}
         self._on_select(int(rows[indices[0]]) if len(indices) else None)
 
@@ -546,13 +675,28 @@ def _draw_limit(plot, source, **legend):
 NO_LIMIT = np.full(tig.BAND_CENTRES.size, np.nan)
 
 
-def _drawn_rows(found):
-    """Return which designs are drawn: those that comply before those that do not, the front among them."""
+def _drawn_rows(found, kept):
+    """Return which designs are drawn: those that comply before those that do not, the front among them.
+
+    Those that are kept are drawn wherever they stand.
+    """
     order = np.argsort(-found.slack, kind="stable")
     rest = order[~np.isin(order, found.front)]
     room = max(0, MOST_DRAWN - found.front.size)
     every = max(1, -(-rest.size // max(room, 1)))
-    return np.concatenate([rest[::every], found.front]).astype(int)
+    drawn = np.concatenate([rest[::every], found.front]).astype(int)
+    return np.concatenate([kept[~np.isin(kept, drawn)], drawn])
+
+
+def _still_there(before, now, rows):
+    """Return which rows of what was found before are the same designs now (rows,)."""
+    if before is None:
+        return np.zeros(rows.size, bool)
+    there = rows < now.slack.size
+    inside = np.where(there, rows, 0)
+    for name, column in before.many.columns.items():
+        there &= (column[rows] == now.many.columns[name][inside]).astype(bool)
+    return there
 
 
 def _staggered(labels):

@@ -405,6 +405,7 @@ class FilmPlayer(_Player):
         self.film = ColumnDataSource(name="film", data={"time": [], "wheel_0": []}, syncable=False)
         self.speed = Select(
             name="film_speed",
+            title="Speed of the film",
             value="50",
             options=[(factor, words) for words, factor in SPEEDS.items()],
             width=130,

@@ -219,7 +219,7 @@ def test_sliders_that_know_the_answer(open_dashboard, tell):  # noqa: F811
     handle = page.get_by_role("slider", name=SLIDER)
     handle.evaluate(WATCH_STRETCHES)
     waits = []
-    for _ in range(6):
+    for _ in range(20):
         page.evaluate("() => { window.in_place = 0 }")
         drag(page, SLIDER, 10, pixels=2, pause=30)
         page.wait_for_function("() => window.in_place > window.last_move")

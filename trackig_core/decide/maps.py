@@ -16,7 +16,7 @@ from trackig_core.decide.feasible import Ranges, searched_ranges
 from trackig_core.decide.numbers import is_logarithmic
 from trackig_core.decide.requirements import WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import amount, in_unit, percent, plain, sentence
+from trackig_core.decide.words import amount, how_much, in_unit, plain, sentence
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
@@ -90,7 +90,7 @@ class DesignMap:
         most = f"the greatest {WORDS[name]} is {in_unit(name, values[row, column])}, with {place}"
         if self.complies is None:
             return sentence(f"{most}.")
-        return sentence(f"{percent(float(self.complies.mean()))} of the map complies; {most}.")
+        return sentence(f"{how_much(float(self.complies.mean()))} of the map complies; {most}.")
 
 
 def design_map(

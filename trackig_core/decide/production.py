@@ -27,7 +27,7 @@ from trackig_core.decide.tolerances import (
     drawn_shares,
     make_factors,
 )
-from trackig_core.decide.words import percent, plain, sentence
+from trackig_core.decide.words import how_much, plain, sentence
 from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
@@ -98,8 +98,9 @@ class ToleranceResult:
 
     @property
     def tighten_first(self) -> str | None:
-        """Factor whose halved scatter helps most; None if every sample complies."""
-        return None if self.complying == self.samples else next(iter(self.tightened))
+        """Factor whose halved scatter helps most; None if every sample complies, or none even then."""
+        first, share = next(iter(self.tightened.items()))
+        return None if self.complying == self.samples or share == 0 else first
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a pandas.DataFrame, one row a sample: fields [SI], figures, governing margin [dB]."""
@@ -116,9 +117,9 @@ class ToleranceResult:
     def __str__(self) -> str:
         """Return one sentence."""
         low, high = (f"{100 * end:.1f}" for end in self.confidence_interval)
-        said = sentence(f"{percent(self.probability)} of production ({low}–{high} %) complies")
+        said = sentence(f"{how_much(self.probability)} of production ({low}–{high} %) complies")
         if self.tighten_first is None:
-            return f"{said}."
+            return f"{said}." if self.complying else f"{said}, whichever scatter is halved."
         which = self.tighten_first
         words = "scatter of the tested specimens" if which == "production" else plain(which)
         return f"{said}; tighten the {words} first."

@@ -20,7 +20,7 @@ from trackig_core.decide.numbers import is_logarithmic, single_numbers
 from trackig_core.decide.requirements import DEFLECTION, MARGIN, UNITS, Requirements
 from trackig_core.decide.solving import How, joined, solve_designs
 from trackig_core.decide.tolerances import drawn_shares
-from trackig_core.decide.words import in_unit
+from trackig_core.decide.words import in_unit, plain
 from trackig_core.frequency_domain.batch import BatchSolution
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
@@ -138,19 +138,25 @@ class FoundDesigns:
             if by == DEFLECTION:
                 return f"No design complies; the closest sinks {10 ** (miss / 20) - 1:.0%} more than allowed."
             return f"No design complies; the closest misses the limit at {by} Hz by {miss:.1f} dB."
-        ends = (
-            f"{name} from {in_unit(name, low)} to {in_unit(name, high)}"
-            for name, low, high in zip(
-                self.objectives,
-                self.values[self.front].min(axis=0),
-                self.values[self.front].max(axis=0),
-                strict=True,
-            )
-        )
-        return (
-            f"{int(self.complies.sum())} of {self.slack.size} designs comply, and no other beats "
-            f"{self.front.size} of them: {', '.join(ends)}."
-        )
+        best = zip(self.objectives, self.values[self.front].T, strict=True)
+        ends = (f"{plain(name)} {_span(name, values)}" for name, values in best)
+        return f"{self.summary}: {', '.join(ends)}."
+
+    @property
+    def summary(self) -> str:
+        """How many designs comply, and how many of them are best, in words; of some that comply."""
+        complying, best = int(self.complies.sum()), self.front.size
+        comply = "complies" if complying == 1 else "comply"
+        said = f"{complying} of {self.slack.size} designs {comply}"
+        if complying == 1:
+            return said
+        return f"{said}, and no other beats {'one' if best == 1 else best} of them"
+
+
+def _span(name: str, values: RealArray) -> str:
+    """Return least and greatest of an objective with its unit, one number where they are the same."""
+    low, high = (in_unit(name, float(end)) for end in (values.min(), values.max()))
+    return low if low == high else f"from {low} to {high}"
 
 
 def find(

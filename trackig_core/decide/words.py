@@ -46,6 +46,11 @@ def percent(share: float) -> str:
     return f"{100 * share:.1f} %"
 
 
+def how_much(share: float) -> str:
+    """Return a share [-] of something that follows: ``"none"``, ``"all"`` or as :func:`percent` says it."""
+    return {0.0: "none", 1.0: "all"}.get(share) or percent(share)
+
+
 def in_unit(name: str, value: float) -> str:
     """Return a figure, a field or a cost with its unit; a deflection in mm."""
     if name == DEFLECTION:

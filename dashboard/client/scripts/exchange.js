@@ -133,6 +133,49 @@ function switchThemeAsAWhole(event) {
   change.updateCallbackDone.then(() => change.skipTransition())
 }
 
+// What takes the keyboard's focus in a figure has no name, and its tools are shown to the mouse alone.
+function nameFigure(model, canvas) {
+  const figure = canvas.plot_views[0]
+  const layer = canvas.events_el
+  if (figure === undefined || layer.role !== null) return
+  const {"aria-label": label, "aria-keyshortcuts": keys} = Object.fromEntries(entries(figure.model.html_attributes))
+  layer.role = keys === undefined ? "group" : "application"
+  layer.ariaLabel = label ?? "Figure"
+  const toolbar = () => [...figure.renderer_views.values()].find((each) => each.toolbar_view)?.toolbar_view
+  figure.el.addEventListener("focusin", () => {
+    toolbar()?.set_visibility(true)
+    for (const {el, model: {type}} of toolbar()?.tool_button_views ?? []) {
+      el.role = "button"
+      // the others need a pointer
+      if (type !== "ClickButton") el.tabIndex = -1
+    }
+  })
+  figure.el.addEventListener("focusout", () => toolbar()?.set_visibility(figure.el.matches(":hover")))
+  layer.addEventListener("keydown", (event) => {
+    if (!keys?.split(" ").includes(event.key) || event.ctrlKey || event.altKey || event.metaKey) return
+    event.preventDefault()
+    model.send_msg({kind: "key", figure: figure.model.name, key: event.key, shift: event.shiftKey})
+  })
+}
+
+const entries = (given) => (given instanceof Map ? given : Object.entries(given))
+
+// The thumb of a slider tells its value, and not of what.
+function nameSlider(slider) {
+  for (const thumb of slider.shadow_el.querySelectorAll("[role=slider]")) thumb.ariaLabel = slider.model.title
+}
+
+// Have something done to all views of a model of Bokeh: as they are drawn, and to those that were drawn before.
+function onDrawn(type, act) {
+  const {default_view} = Bokeh.Models.get(type).prototype
+  const {render} = default_view.prototype
+  default_view.prototype.render = function () {
+    render.call(this)
+    act(this)
+  }
+  for (const view of Bokeh.index.query((each) => each instanceof default_view)) act(view)
+}
+
 // Bokeh would take up a session where it was, but loses the arrays in it, and would fill this page with that of a
 // restarted server, made for the address as it was at first. Loaded anew, the page comes back as it is now.
 async function comeBack() {
@@ -167,6 +210,8 @@ export function render({model, view}) {
     copyLink: () => copyLink(model),
     choose: (...rest) => choose(model, ...rest),
   }
+  onDrawn("Canvas", (canvas) => nameFigure(model, canvas))
+  onDrawn("Slider", nameSlider)
   resume(model)
   recall(model)
   return document.createElement("span")

@@ -28,7 +28,7 @@ BOX = {"margin": (6, 12, 6, 0)}
 
 
 class Asked:
-    """A question, its progress, and its answer in a sentence.
+    """A question, its progress, its answer in a sentence, and a hint what to do with it on the page.
 
     Parameters
     ----------
@@ -41,6 +41,7 @@ class Asked:
     """
 
     kind = ""
+    hint = ""
 
     def __init__(self, snapshot, exchange, inquiry=None):
         self.snapshot, self._exchange = snapshot, exchange
@@ -99,11 +100,14 @@ class Asked:
         result = self.inquiry.result
         self.answered_row.visible = result is not None
         if result is not None:
-            self._say(self.words(result), "fine")
+            self._say_answer(result)
             self.show(result)
 
-    def _say(self, words, kind="note"):
-        self.sentence.object = f'<p role="status" class="{kind}">{html.escape(words)}</p>'
+    def _say_answer(self, result):
+        self._say(self.words(result), "fine", self.hint)
+
+    def _say(self, words, kind="note", hint=""):
+        self.sentence.object = said(words, kind) + (hint and f'<p class="note">{html.escape(hint)}</p>')
 
     def words(self, result):
         """Return the answer in one sentence."""
@@ -149,6 +153,16 @@ class Asked:
 
     def _save(self, text):
         self._exchange.save(file_name(self.assessment.title, self.kind, "answer.csv"), text)
+
+
+def said(words, kind):
+    """Return words of a kind that a reader's software says as soon as they are there (HTML)."""
+    return words and f'<p role="status" class="{kind}">{html.escape(words)}</p>'
+
+
+def scrolled(name, content):
+    """Return HTML that keys can scroll where it is wider than its place, with a name."""
+    return f'<div class="scroll" tabindex="0" role="region" aria-label="{name}">{content}</div>'
 
 
 def kept_answer(question, words, result):

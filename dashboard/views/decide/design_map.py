@@ -3,14 +3,16 @@
 import panel as pn
 
 import trackig_core as tig
+from dashboard import theme
+from dashboard.compute.document import NextTick
 from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.decide import MapFigure
-from dashboard.session.answers import FIGURE_WORDS
+from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
 from dashboard.session.surroundings import is_simplified
 from dashboard.views.components import bokeh_pane
-from dashboard.views.decide.asked import NO_SPECIFICATION, Asked
+from dashboard.views.decide.asked import NO_SPECIFICATION, Asked, said
 from dashboard.views.decide.inputs import choice, number_options, offer
-from trackig_core.decide.words import percent
+from trackig_core.decide.words import how_much, sentence
 
 SURROUNDED_POINTS = [80, 80]
 """Points along both fields of a design with a vehicle, several axles or ground that yields [-]: each takes 1
@@ -21,6 +23,10 @@ class Map(Asked):
     """A figure over two fields, with the edge of compliance; a tap takes the design."""
 
     kind = "map"
+    hint = (
+        "Tap a design to take it to the sliders, or move to it with the arrow keys and press Enter; "
+        "Ctrl+Z brings the old one back."
+    )
 
     def __init__(self, snapshot, exchange, take):
         super().__init__(snapshot, exchange)
@@ -42,6 +48,11 @@ class Map(Asked):
         )
         self.map = MapFigure(self._tapped)
         self.place = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.under_cross = pn.pane.HTML(
+            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
+        )
+        exchange.on_key("map_figure", self._key)
+        self.assessment.param.watch(NextTick(self._mark), "results")
         self.button.label = "Draw the map"
         self.figure.param.watch(self.ask_again, "value")
 
@@ -72,22 +83,49 @@ class Map(Asked):
         """Draw the map."""
         name = next(iter(result.figures))
         words = next(words for words, each in self.figure.options.items() if each == name)
-        designs = [self.assessment.current, *self.assessment.shown_pins]
         specification = self.assessment.specification
         limits = {} if specification is None else {"margin": 0.0}
         if "deflection" in result.figures and specification is not None:
             limits["deflection"] = specification.rail_deflection_limit
-        self.map.show(result, name, words, designs, limits)
+        self.map.show(result, name, words, self._designs, limits)
+        self.under_cross.object = ""
         self.place.objects = [bokeh_pane(self.map.layout)]
 
     def words(self, result):
         """Return the answer in one sentence."""
         x, y = (ASKED_FIELDS[name].label.lower() for name in (result.x_field, result.y_field))
         if result.complies is None:
-            return f"{result.x.size} times {result.y.size} designs over {x} and {y}. Tap one to take it."
-        return (
-            f"{percent(float(result.complies.mean()))} of the designs over {x} and {y} comply. "
-            "Tap one to take it to the sliders; Ctrl+Z brings the old one back."
+            return f"{result.x.size} times {result.y.size} designs over {x} and {y}."
+        share = float(result.complies.mean())
+        verb = "complies" if share == 0 else "comply"
+        return sentence(f"{how_much(share)} of the designs over {x} and {y} {verb}.")
+
+    @property
+    def _designs(self):
+        return [self.assessment.current, *self.assessment.shown_pins]
+
+    def _mark(self, *_):
+        if self.assessment.current is not None:
+            self.map.mark(self._designs)
+
+    def _key(self, key, far):
+        """Move the cross by a key and say what is under it, or take it."""
+        result, place = self.inquiry.result, self.map.move(key, far)
+        if place is None:
+            return
+        column, row = place
+        x, y = float(result.x[column]), float(result.y[row])
+        if key == "Enter":
+            self._take(result.design_at(x, y))
+        name, values = next(iter(result.figures.items()))
+        words, scale = FIGURE_WORDS.get(name, (f"Insertion gain at {name} Hz, dB", 1.0))
+        quantity, _, unit = words.partition(", ")
+        verdict = "" if result.complies is None else "complies" if result.complies[row, column] else "fails"
+        where = f"{field_label(result.x_field)} {with_unit(result.x_field, x)}"
+        where += f", {field_label(result.y_field)} {with_unit(result.y_field, y)}"
+        found = f"{quantity.lower()} {scale * values[row, column]:.4g} {unit}"
+        self.under_cross.object = said(
+            sentence(f"{where}: {'; '.join(filter(None, (found, verdict)))}."), "note"
         )
 
     def _tapped(self, x, y):
@@ -102,6 +140,7 @@ class Map(Asked):
             pn.FlexBox(self.x, self.y, self.figure, self.button, self.progress, self.stop, margin=(0, 12)),
             self.sentence,
             self.answered_row,
+            self.under_cross,
             self.place,
             sizing_mode="stretch_width",
             margin=0,

@@ -9,7 +9,7 @@ from dashboard.compute.feasibility import where
 from dashboard.fields import ASKED_FIELDS
 from dashboard.session.answers import with_unit
 from dashboard.views.components import caption, panel
-from dashboard.views.decide.asked import NO_SPECIFICATION, Asked
+from dashboard.views.decide.asked import NO_SPECIFICATION, Asked, scrolled
 
 
 class HowFar(Asked):
@@ -62,10 +62,9 @@ class HowFar(Asked):
             for name in result
             if name in ASKED_FIELDS
         )
-        self.table.object = (
-            "<div class='scroll'><table>"
-            "<thead><tr><th>All others held</th><th>now</th><th>complies</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table></div>"
+        heads = "<tr><th>All others held</th><th>now</th><th>complies</th></tr>"
+        self.table.object = scrolled(
+            "Where the design complies", f"<table><thead>{heads}</thead><tbody>{rows}</tbody></table>"
         )
 
     def build(self):

@@ -12,8 +12,8 @@ from dashboard.fields import FIELDS
 from dashboard.figures.decide import PercentileFigure
 from dashboard.persistence.samples import SamplesError, read_samples
 from dashboard.views.components import bokeh_pane, caption, panel
-from dashboard.views.decide.asked import BOX, BUTTON, Asked
-from dashboard.views.decide.inputs import ShareBoxes, choice, factor_label, is_number
+from dashboard.views.decide.asked import BUTTON, Asked, scrolled
+from dashboard.views.decide.inputs import ShareBoxes, choice, factor_label, is_number, seed_box
 
 USUAL_TOLERANCES = {
     "pad_stiffness": 15.0,
@@ -46,7 +46,7 @@ class HowSure(Asked):
             value=10_000,
             width=120,
         )
-        self.seed = pmui.IntInput(label="Seed", value=0, start=0, size="small", width=110, **BOX)
+        self.seed = seed_box()
         self.percentiles = PercentileFigure()
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
         self.button.label = "How sure?"
@@ -114,7 +114,7 @@ class HowSure(Asked):
         }
         if not given and not self._specimens:
             raise ValueError("Give one of the tolerances: with none, nothing scatters.")
-        settings = {"tolerances": given, "samples": self.samples.value, "seed": self.seed.value or 0}
+        settings = {"tolerances": given, "samples": self.samples.value, "seed": self.seed.number}
         return settings | ({"production": self._specimens} if self._specimens else {})
 
     def show(self, result):
@@ -133,13 +133,14 @@ class HowSure(Asked):
             f"<td>{100 * share:.1f} %</td></tr>"
             for name, share in result.tightened.items()
         )
-        self.table.object = (
-            f"<div class='scroll'><p>Governing margin of nine in ten: {formats.signed_text(low)} to "
+        self.table.object = scrolled(
+            "What halving a scatter does",
+            f"<p>Governing margin of nine in ten: {formats.signed_text(low)} to "
             f"{formats.signed_text(high)} dB. "
             f"Worst corner of all tolerances: {formats.signed_text(result.worst_margin)} dB. "
             f"{result.samples} samples, seed {result.seed}.</p>"
             "<table><thead><tr><th>Half the scatter of</th><th>complies</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table></div>"
+            f"<tbody>{rows}</tbody></table>",
         )
 
     def build(self):

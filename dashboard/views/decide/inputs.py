@@ -1,26 +1,82 @@
 """Boxes and options from which several of the questions are put together."""
 
+import math
+
 import panel as pn
 import panel_material_ui as pmui
 
 from dashboard import theme
 from dashboard.fields import ASKED_FIELDS, FIELDS
+from dashboard.formats import quantity_text
 from dashboard.views.decide.asked import BOX
 from trackig_core.decide.numbers import changeable_numbers, single_numbers
+from trackig_core.names import brief
+from trackig_core.typed_numbers import NumberError, read_number
 
 
-def percent_box(name, value, low=0.0):
+class NumberBox(pmui.TextInput):
+    """A box for a number, read as anywhere: with a decimal comma, or with its unit behind it.
+
+    Panel's own boxes for numbers have buttons without a name beside them, and lose what is typed after Enter.
+
+    Parameters
+    ----------
+    label : str
+        What the box is called; its end says the unit.
+    value : float or str
+        The number at first [unit], or the text that stands for it.
+    unit : str
+        Unit of the number; empty if it has none.
+    most : float
+        The greatest number that may be given [unit]; the least is 0, as is an empty box.
+    whole : bool
+        Whether it must be a whole number.
+    """
+
+    def __init__(self, label, value, unit="", most=math.inf, whole=False, **look):
+        text = value if isinstance(value, str) else quantity_text(value)
+        super().__init__(label=label, value=text, max_length=40, size="small", **BOX, **look)
+        self._unit, self._most, self._whole = unit, most, whole
+        self.param.watch(self._mark, "value")
+
+    @property
+    def number(self):
+        """The number as it was typed [unit]; a ValueError says why there is none."""
+        text = self.value.strip()
+        try:
+            number = read_number(text, self._unit) if text else 0.0
+        except NumberError as error:
+            raise ValueError(f"{self.label}: {error}.") from None
+        if not 0 <= number <= self._most:
+            span = "or more" if self._most == math.inf else f"to {quantity_text(self._most)} {self._unit}"
+            raise ValueError(f"{self.label}: {brief(text)}: give 0 {span.rstrip()}.")
+        if self._whole and number != int(number):
+            raise ValueError(f"{self.label}: {brief(text)}: give a whole number.")
+        return int(number) if self._whole else number
+
+    def _mark(self, *_):
+        try:
+            self.error_state = self.number is None
+        except ValueError:
+            self.error_state = True
+
+
+def percent_box(name, value):
     """Return a box for a share of a field [%]."""
-    return pmui.FloatInput(
-        label=f"{ASKED_FIELDS[name].label}, ± %",
-        value=value,
-        start=low,
-        end=90.0,
-        step=1.0,
-        size="small",
-        width=190,
-        **BOX,
-    )
+    return NumberBox(f"{ASKED_FIELDS[name].label}, ± %", value, "%", most=MOST_CHANGE, width=190)
+
+
+MOST_CHANGE = 90.0
+"""How far a field may be changed, or scatter [%]."""
+
+
+def seed_box():
+    """Return a box for the seed of what is drawn by chance."""
+    return NumberBox("Seed", 0, whole=True, most=MOST_SEED, width=110)
+
+
+MOST_SEED = 2**31 - 1
+"""A seed beyond which figures would not fit into a study file."""
 
 
 def choice(label, options, width, **words):
@@ -33,6 +89,13 @@ def choice(label, options, width, **words):
         margin=(0, 12, 0, 0),
         **words,
     )
+
+
+def titled(title, boxes):
+    """Return boxes to tick below what they are called together."""
+    name = pn.pane.HTML(f"<h3>{title}</h3>", stylesheets=[theme.ANSWER_CSS], margin=(0, 12))
+    boxes.margin = (0, 12)
+    return pn.Column(name, boxes, sizing_mode="stretch_width", margin=0)
 
 
 def factor_label(name):
@@ -74,8 +137,6 @@ class ShareBoxes:
         What stands at first in those of vehicle and ground [%].
     exchange : Exchange
         Prepares the browser for boxes that are added.
-    low : float
-        Least share [%].
     changed : callable, optional
         Called when a share changes.
     **words
@@ -83,21 +144,21 @@ class ShareBoxes:
 
     Attributes
     ----------
-    boxes : dict of str to panel_material_ui.FloatInput
+    boxes : dict of str to NumberBox
         The boxes by name of the number.
     row : panel.FlexBox
         All of them.
     """
 
-    def __init__(self, shares, around, exchange, low=0.0, changed=None, **words):
-        self._around, self._exchange, self._low, self._changed = around, exchange, low, changed
+    def __init__(self, shares, around, exchange, changed=None, **words):
+        self._around, self._exchange, self._changed = around, exchange, changed
         self.boxes = {}
         self.row = pn.FlexBox(margin=(0, 12), **words)
         self._add(shares)
 
     def _add(self, shares):
         for name, share in shares.items():
-            box = self.boxes[name] = percent_box(name, share, self._low)
+            box = self.boxes[name] = percent_box(name, share)
             if self._changed is not None:
                 box.param.watch(self._changed, "value")
         self.row.objects = list(self.boxes.values())
@@ -113,7 +174,7 @@ class ShareBoxes:
             self.boxes[name].visible = name in there
 
     def change_all(self, share):
-        """Have the same share in all boxes, and in those that are added [%]."""
+        """Have the same share in all boxes, and in those that are added: text, as it was typed [%]."""
         self._around = share
         for box in self.boxes.values():
             box.value = share
@@ -121,7 +182,7 @@ class ShareBoxes:
     def shares(self, design):
         """Return the shares of what a design has, none of which is zero, by name [-]."""
         there = changeable_numbers(design)
-        return {name: box.value / 100 for name, box in self.boxes.items() if box.value and name in there}
+        return {name: box.number / 100 for name, box in self.boxes.items() if name in there and box.number}
 
 
 AROUND = ASKED_FIELDS.keys() - FIELDS.keys()

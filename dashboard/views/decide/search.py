@@ -1,7 +1,5 @@
 """Designs that comply, and the best of them."""
 
-import html
-
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
@@ -11,9 +9,19 @@ from dashboard import formats, theme
 from dashboard.compute.document import NextTick
 from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.decide import CloudFigure
-from dashboard.session.answers import FIGURE_WORDS
-from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside
-from dashboard.views.decide.inputs import choice, is_number, number_options, offer
+from dashboard.figures.legends import with_legend
+from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
+from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside, said
+from dashboard.views.decide.inputs import (
+    NumberBox,
+    choice,
+    is_number,
+    number_options,
+    offer,
+    seed_box,
+    titled,
+)
+from trackig_core.decide.words import sentence
 from trackig_core.names import LONGEST_NAME
 
 
@@ -21,6 +29,10 @@ class Search(Asked):
     """Designs that comply, on the front of margin against what else counts."""
 
     kind = "find"
+    hint = (
+        "Brush the pictures to see insertion gain of several; tap a design to take or pin it, or go through "
+        "the best ones with the arrow keys and press Enter."
+    )
 
     def __init__(self, snapshot, exchange, take, pin, shelf):
         super().__init__(snapshot, exchange)
@@ -45,9 +57,7 @@ class Search(Asked):
             width=220,
         )
         self.prices = {
-            name: pmui.FloatInput(
-                label=words, value=price, start=0.0, size="small", width=200, visible=False, **BOX
-            )
+            name: NumberBox(words, price, width=200, visible=False)
             for name, words, price in (
                 ("block_mass", "Cost per kg of block", 1.0),
                 ("fastener_spacing", "Saving per metre of spacing", 0.0),
@@ -61,17 +71,10 @@ class Search(Asked):
             stylesheets=[theme.CHECKS_CSS],
             margin=(0, 12, 0, 0),
         )
-        self.deflection = pmui.FloatInput(
-            label="Rail sinks at most, mm (0: as specified)",
-            value=0.0,
-            start=0.0,
-            end=100.0,
-            step=0.1,
-            size="small",
-            width=290,
-            **BOX,
+        self.deflection = NumberBox(
+            "Rail sinks at most, mm (0: as specified)", 0.0, "mm", most=100.0, width=290
         )
-        self.seed = pmui.IntInput(label="Seed", value=0, start=0, size="small", width=110, **BOX)
+        self.seed = seed_box()
         self.button.label = "Find designs"
         self.take = pmui.Button(
             label="Take to the sliders", icon="tune", disabled=True, on_click=self._take_chosen, **BUTTON
@@ -86,6 +89,8 @@ class Search(Asked):
             "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
         )
         self.cloud = CloudFigure(self._choose)
+        for figure in (self.cloud.objectives, self.cloud.fields):
+            exchange.on_key(figure.name, self._key)
         self.against.param.watch(self._offer_prices, "value")
         self.inquiry.param.watch(NextTick(self._grow), "so_far")
 
@@ -102,13 +107,13 @@ class Search(Asked):
         free = [name for name in self.free.value if is_number(design, name) and name not in taken]
         if not free and not choices:
             raise ValueError("Choose which numbers are free.")
-        settings = {"free": free, "objectives": ["margin", self.against.value], "seed": self.seed.value or 0}
+        settings = {"free": free, "objectives": ["margin", self.against.value], "seed": self.seed.number}
         if choices:
             settings["choices"] = choices
-        if self.deflection.value:
-            settings["max_deflection"] = self.deflection.value / 1e3
+        if self.deflection.number:
+            settings["max_deflection"] = self.deflection.number / 1e3
         if self.against.value == "cost":
-            prices = {name: box.value or 0.0 for name, box in self.prices.items()}
+            prices = {name: box.number for name, box in self.prices.items()}
             prices["fastener_spacing"] *= -1
             settings["cost"] = {name: price for name, price in prices.items() if price}
         return settings
@@ -156,24 +161,19 @@ class Search(Asked):
             else:
                 by = f"misses the limit at {found.in_the_way} Hz by {miss:.1f} dB"
             return f"None of {tried} complies; the closest {by}."
-        complying = int(found.complies.sum())
-        return (
-            f"{complying} of {tried} {'complies' if complying == 1 else 'comply'}; "
-            f"{found.front.size} of them no other beats. "
-            "Brush the pictures to see their insertion gain; tap a design to take or pin it."
-        )
+        return f"{found.summary}."
 
     def _choose(self, row):
         self._chosen = row
-        found = self._found()
-        parts = (
-            []
-            if row is None or found is None
-            else [f"{kind.capitalize()}: {names[row]}" for kind, names in found.chosen.items()]
-        )
-        self.parts.object = f'<p role="status" class="note">{html.escape("; ".join(parts))}</p>'
+        self.parts.object = "" if row is None else said(chosen_words(self._found(), row), "note")
         for button in (self.take, self.pin):
             button.disabled = row is None
+
+    def _key(self, key, far):
+        """Go through the best designs by a key, or take the one that is chosen."""
+        self.cloud.move(key, far)
+        if key == "Enter" and self._chosen is not None:
+            self._take_chosen()
 
     def _found(self):
         return self.inquiry.result if self.inquiry.so_far is None else self.inquiry.so_far
@@ -189,10 +189,11 @@ class Search(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        pictures = (self.cloud.objectives, self.cloud.fields, self.cloud.gains)
+        objectives = with_legend(self.cloud.objectives, self.cloud.legend)
+        pictures = (objectives, self.cloud.fields, self.cloud.gains)
         return pn.Column(
-            pn.FlexBox(self.free, margin=(0, 12)),
-            pn.FlexBox(self.chosen, margin=(0, 12)),
+            titled("Free", self.free),
+            titled("From the catalogue", self.chosen),
             pn.FlexBox(
                 self.against,
                 *self.prices.values(),
@@ -242,6 +243,33 @@ def catalogued(kind, design, catalogue):
     if kind in ("block", "boot") and not design.two_stage:
         return []
     return [each.choice(design) for each in catalogue.of_kind(kind).values()]
+
+
+def chosen_words(found, row):
+    """Return what a design that was found is and does, in words.
+
+    Parameters
+    ----------
+    found : trackig_core.decide.FoundDesigns
+        What was found.
+    row : int
+        Which design.
+
+    Returns
+    -------
+    str
+        Its objectives, then what was free and what was chosen from.
+    """
+    does = []
+    for name, value in zip(found.objectives, found.values[row], strict=True):
+        words, scale = _axis(name)
+        quantity, _, unit = words.partition(", ")
+        does.append(f"{quantity.lower()} {scale * value:.4g} {unit}".rstrip())
+    design = found.many.design(row)
+    numbers = [name for name in found.free if name in ASKED_FIELDS]
+    parts = [f"{field_label(name)} {with_unit(name, design.value(name))}" for name in numbers]
+    parts += [f"{kind} {names[row]}" for kind, names in found.chosen.items()]
+    return sentence(f"{', '.join(does)}: {', '.join(parts)}.")
 
 
 def _varies(many, name):

@@ -8,8 +8,8 @@ from dashboard.fields import ASKED_FIELDS, FIELDS
 from dashboard.figures.decide import ChangeFigure, TornadoFigure
 from dashboard.session.answers import FIGURE_WORDS
 from dashboard.views.components import caption, panel
-from dashboard.views.decide.asked import BOX, Asked, beside
-from dashboard.views.decide.inputs import ShareBoxes, choice
+from dashboard.views.decide.asked import Asked, beside
+from dashboard.views.decide.inputs import MOST_CHANGE, NumberBox, ShareBoxes, choice
 
 
 class WhatMatters(Asked):
@@ -19,12 +19,10 @@ class WhatMatters(Asked):
 
     def __init__(self, snapshot, exchange):
         super().__init__(snapshot, exchange)
-        self.change = pmui.FloatInput(
-            label="Change, ± %", value=10.0, start=0.1, end=90.0, step=1.0, size="small", width=130, **BOX
-        )
+        self.change = NumberBox("Change, ± %", 10.0, "%", most=MOST_CHANGE, width=130)
         self.one_by_one = pmui.Checkbox(label="A change for each field", size="small", margin=(8, 12, 0, 0))
         self.changes_of = ShareBoxes(
-            dict.fromkeys(FIELDS, 10.0), 10.0, exchange, low=0.1, changed=self.ask, visible=False
+            dict.fromkeys(FIELDS, 10.0), 10.0, exchange, changed=self.ask, visible=False
         )
         self.figure = choice(
             label="Figure",
@@ -49,7 +47,10 @@ class WhatMatters(Asked):
 
     def settings(self):
         """Return what is asked about the current design."""
-        return {"changes": self.changes_of.shares(self.assessment.current.design)}
+        changes = self.changes_of.shares(self.assessment.current.design)
+        if not changes:
+            raise ValueError("Give one change or more: with none, nothing changes.")
+        return {"changes": changes}
 
     def show(self, result):
         """Draw the changes."""

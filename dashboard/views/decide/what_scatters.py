@@ -7,7 +7,7 @@ import panel as pn
 
 from dashboard import theme
 from dashboard.session.answers import FIGURE_WORDS
-from dashboard.views.decide.asked import Asked
+from dashboard.views.decide.asked import Asked, scrolled
 from dashboard.views.decide.inputs import factor_label
 
 
@@ -67,12 +67,13 @@ class WhatScatters(Asked):
             + "</tr>"
             for column, factor in enumerate(result.factors)
         )
-        self.table.object = (
-            f"<div class='scroll'><table><thead><tr><th>Part of the scatter of</th>{heads}</tr></thead>"
+        self.table.object = scrolled(
+            "What the scatter is due to",
+            f"<table><thead><tr><th>Part of the scatter of</th>{heads}</tr></thead>"
             f"<tbody>{rows}</tbody></table>"
             f"<p>Total-order Sobol indices with their 95 % intervals: interactions count for each that takes "
             f"part, so that a column may come to more than all. {result.samples} base samples, seed "
-            f"{result.seed}.</p></div>"
+            f"{result.seed}.</p>",
         )
 
     def build(self):

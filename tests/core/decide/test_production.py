@@ -97,8 +97,12 @@ def test_all_complies_and_nothing_does():
     sure = tolerance(BLOCK, loose, {"boot_stiffness": 0.1}, samples=200)
     assert sure.probability == 1
     assert sure.tighten_first is None
-    assert str(sure) == "100 % of production (98.1–100.0 %) complies."
-    assert tolerance(BLOCK, hopeless, {"boot_stiffness": 0.1}, samples=200).probability == 0
+    assert str(sure) == "All of production (98.1–100.0 %) complies."
+    never = tolerance(BLOCK, hopeless, {"boot_stiffness": 0.1}, samples=200)
+    assert never.probability == 0
+    # what helps nothing is no advice
+    assert never.tighten_first is None
+    assert str(never) == "None of production (0.0–1.9 %) complies, whichever scatter is halved."
 
 
 def test_a_deflection_limit_counts():

@@ -1,5 +1,7 @@
 """Searches and maps against exact solutions and against every point of a fine grid."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -56,6 +58,32 @@ def test_the_front_is_that_of_a_fine_grid(found, specification):
         assert margin[seen.figures["deflection"] <= sinks].max() <= best + 0.1
     assert np.all(np.diff(front[:, 0]) < 0)  # sorted by margin, and each pays for it in deflection
     assert np.all(np.diff(front[:, 1]) < 0)
+
+
+def test_one_design_is_spoken_of_as_one(found):
+    """Zero, one and many: an answer is read aloud."""
+
+    def said(slack, front):
+        values = np.array([[1.0, 2e-3], [2.0, 1e-3]])[: len(slack)]
+        return str(
+            dataclasses.replace(
+                found,
+                slack=np.array(slack),
+                front=np.array(front, int),
+                values=values,
+                governed_by=("63", "80"),
+            )
+        )
+
+    assert said([-1.0, -2.0], []) == "No design complies; the closest misses the limit at 63 Hz by 1.0 dB."
+    assert said([1.0, -2.0], [0]) == "1 of 2 designs complies: margin 1.0 dB, deflection 2.00 mm."
+    assert said([1.0, 2.0], [1]) == (
+        "2 of 2 designs comply, and no other beats one of them: margin 2.0 dB, deflection 1.00 mm."
+    )
+    assert said([1.0, 2.0], [0, 1]) == (
+        "2 of 2 designs comply, and no other beats 2 of them: "
+        "margin from 1.0 dB to 2.0 dB, deflection from 1.00 mm to 2.00 mm."
+    )
 
 
 def test_nothing_complies_and_it_says_what_stands_in_the_way(specification):

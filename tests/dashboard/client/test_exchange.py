@@ -117,6 +117,16 @@ def test_messages_of_another_form_are_dropped(session, exchange, sent, message):
     assert (opened, sent, session.snapshot.query()) == ([], [], before)
 
 
+def test_keys_go_to_the_figure_on_which_they_were_pressed(exchange):
+    pressed = []
+    exchange.on_key("map_figure", lambda *key: pressed.append(key))
+    key = {"kind": "key", "figure": "map_figure", "key": "ArrowUp", "shift": True}
+    others = ({"figure": "another"}, {"figure": ["map_figure"]}, {"key": 1}, {"shift": "yes"})
+    for message in (key, *(key | other for other in others)):
+        handle_message(exchange, message)
+    assert pressed == [("ArrowUp", True)]
+
+
 def test_scripts_are_made_of_quoted_words():
     assert opening("source") == f'window.trackig.choose("source", ".csv,.txt,.tsv", {64 * 1024})'
 

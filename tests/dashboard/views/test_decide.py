@@ -20,6 +20,7 @@ from dashboard.session.production import Production
 from dashboard.session.results import Outcome
 from dashboard.session.shelf import Shelf
 from dashboard.views.decide.asked import NO_SPECIFICATION
+from dashboard.views.decide.inputs import NumberBox, percent_box, seed_box
 from dashboard.views.decide.tab import Decide
 from tests.core.decide.test_search import CATALOGUE
 from tests.waiting import on_a_loop
@@ -40,8 +41,13 @@ class Session:
         self.assessment = Assessment(self.inputs, self.outcome, self.definition, self.pins, self.pinned)
         self.assessment.specification = specification
         self.snapshot = SessionSnapshot(self.inputs, self.definition, self.pins, self.assessment)
+        self.keys = {}
         self.saved, self.production, self.shelf = [], Production(), Shelf()
-        self.exchange = SimpleNamespace(save=lambda *file: self.saved.append(file), introduce=lambda: None)
+        self.exchange = SimpleNamespace(
+            save=lambda *file: self.saved.append(file),
+            introduce=lambda: None,
+            on_key=self.keys.__setitem__,
+        )
         self.do(self._make)
 
     def _make(self):
@@ -125,7 +131,7 @@ def test_production_is_the_library_s(session):
     view = session.view.how_sure
     view.samples.value = 1000
     session.do(view.ask)
-    shares = {name: {"uniform": box.value / 100} for name, box in view.tolerances.boxes.items()}
+    shares = {name: {"uniform": box.number / 100} for name, box in view.tolerances.boxes.items()}
     question = tig.decide.Question(
         "tolerance", BLOCK, {"tolerances": shares, "samples": 1000, "seed": 0}, specification=LIMITS
     )
@@ -135,7 +141,7 @@ def test_production_is_the_library_s(session):
     np.testing.assert_array_equal(view.percentiles.bands.data["limit"], LIMITS.levels)
     assert "of production" in view.sentence.object
     for box in view.tolerances.boxes.values():
-        box.value = 0.0
+        box.value = "0"
     session.do(view.ask)
     assert "Give one of the tolerances" in view.sentence.object
 
@@ -159,7 +165,8 @@ def test_a_map_shows_both_edges_and_the_pins(session, summary):
     drawn = session.view.map.map
     edges = ("just complies", "sinks just as far as allowed")
     assert drawn.legend.listed == (*edges, "This design", "Heavy <b>")
-    assert len(drawn.model.renderers) == 1 + len(drawn.legend.listed)
+    assert drawn.marks.data["x"] == [each.design.boot_stiffness / 1e6 for each in session.view.map._designs]
+    assert drawn.marks.data["marker"] == ["circle", "diamond"]
     assert "Heavy &lt;b&gt;" in drawn.legend.model.text
     assert not drawn.model.legend
 
@@ -184,6 +191,122 @@ def test_a_search_is_drawn_taken_and_pinned(session):
     assert session.pins.pinned[0].name == "Best <b>"
     assert session.inputs.boot_stiffness == pytest.approx(expected.boot_stiffness / 1e6, rel=1e-5)
     assert session.pins.pinned[0].design == session.inputs.to_design()
+
+
+def test_keys_move_a_cross_over_the_map_and_take_the_design_under_it(session):
+    view = session.view.map
+    press = session.keys["map_figure"]
+    session.do(press, "ArrowRight", False)
+    assert view.map.cross.data["x"] == [], "there is no map yet"
+    session.do(view.ask)
+    found = view.inquiry.result
+    column = int(np.abs(found.x - BLOCK.boot_stiffness).argmin())
+    row = int(np.abs(found.y - BLOCK.block_mass).argmin())
+    for key, far in (("ArrowRight", True), ("ArrowLeft", False), ("ArrowDown", False), ("Home", False)):
+        session.do(press, key, far)
+    place = column + 9, row - 1
+    assert view.map.cross.data == {"x": [found.x[place[0]] / 1e6], "y": [found.y[place[1]]]}
+    said = view.under_cross.object
+    assert f"governing margin {found.figures['margin'][place[::-1]]:.4g} dB" in said
+    assert ("complies" if found.complies[place[::-1]] else "fails") in said
+    session.do(press, "Enter", False)
+    assert session.inputs.boot_stiffness == pytest.approx(found.x[place[0]] / 1e6, rel=1e-5)
+    # the cross stays on the map
+    for _ in range(30):
+        session.do(press, "ArrowUp", True)
+    assert view.map.cross.data["y"] == [found.y[-1]]
+
+
+def test_a_map_marks_the_current_design_as_it_moves(session, summary):
+    session.do(session.view.map.ask)
+    other = summary("booted-block-high-mass")
+    session.do(session.outcome.param.update, summary=other)
+    assert session.view.map.map.marks.data["y"] == [other.design.block_mass]
+
+
+def test_keys_go_through_the_best_designs_of_a_search(session):
+    view = session.view.search
+    session.do(view.ask)
+    found, cloud = view.inquiry.result, view.cloud
+    press = session.keys["objectives_figure"]
+    session.do(press, "Enter", False)
+    assert session.inputs.to_design() == BLOCK, "nothing is chosen yet"
+    order = found.front[np.argsort(found.values[found.front, 0], kind="stable")]
+    session.do(press, "ArrowRight", False)
+    session.do(press, "ArrowRight", False)
+    assert [cloud.designs.data["row"][place] for place in cloud.designs.selected.indices] == [order[1]]
+    margin, sinks = found.values[order[1]]
+    words = f"Governing margin {margin:.4g} dB, rail deflection {1e3 * sinks:.4g} mm: pad stiffness"
+    assert words in view.parts.object
+    session.do(press, "ArrowRight", True)
+    rows = [cloud.designs.data["row"][place] for place in cloud.designs.selected.indices]
+    assert rows == [order[2], order[1]]
+    assert len(cloud.curves.data["xs"]) == 2
+    session.do(press, "Enter", False)
+    taken = found.many.design(int(order[2]))
+    assert session.inputs.boot_stiffness == pytest.approx(taken.boot_stiffness / 1e6, rel=1e-5)
+
+
+def grown(**settings):
+    """Return what a search has found after each generation."""
+    found = []
+    settings = {"free": ["pad_stiffness", "boot_stiffness"], "population": 20, "generations": 4} | settings
+    tig.decide.Question("find", BLOCK, settings, specification=LIMITS).ask(so_far=found.append)
+    return found
+
+
+def test_what_is_brushed_stays_so_while_a_search_grows(session):
+    view = session.view.search
+    first, *others = grown()
+    session.do(view.inquiry.param.update, so_far=first)
+    selected = view.cloud.designs.selected
+    selected.indices = [3, 0]
+    rows = [int(view.cloud.designs.data["row"][place]) for place in selected.indices]
+    chosen = first.many.design(rows[0])
+    told = view.parts.object
+    for found in others:
+        session.do(view.inquiry.param.update, so_far=found)
+        assert [int(view.cloud.designs.data["row"][place]) for place in selected.indices] == rows
+        assert view._design() == chosen
+        assert not view.take.disabled
+        assert view.parts.object == told
+        assert len(view.cloud.curves.data["xs"]) == 2
+    # another search has other designs
+    session.do(view.inquiry.param.update, so_far=grown(seed=1)[0])
+    assert selected.indices == []
+    assert view.take.disabled
+
+
+@pytest.mark.parametrize(("typed", "number"), [("12,5", 12.5), (" 5 % ", 5.0), ("", 0.0), ("90", 90.0)])
+def test_a_box_reads_numbers_as_people_type_them(typed, number):
+    box = percent_box("block_mass", 10.0)
+    box.value = typed
+    assert box.number == number
+    assert not box.error_state
+
+
+@pytest.mark.parametrize(
+    ("box", "typed", "why"),
+    [
+        (percent_box("block_mass", 10.0), "91", "give 0 to 90 %"),
+        (percent_box("block_mass", 10.0), "-1", "give 0 to 90 %"),
+        (percent_box("block_mass", 10.0), "ten", "is no number"),
+        (NumberBox("Price", 1.0), "-1", "give 0 or more"),
+        (seed_box(), "1.5", "give a whole number"),
+    ],
+)
+def test_a_box_says_why_it_takes_no_number(box, typed, why):
+    box.value = typed
+    assert box.error_state
+    with pytest.raises(ValueError, match=why):
+        _ = box.number
+
+
+def test_a_number_that_is_none_is_said_where_the_answer_would_be(session):
+    session.view.search.seed.value = "1.5"
+    session.do(session.view.search.ask)
+    assert "Seed: &#x27;1.5&#x27;: give a whole number." in session.view.search.sentence.object
+    assert session.view.search.inquiry.asked is None
 
 
 def test_with_nothing_free_it_says_what_to_do(session):
@@ -255,8 +378,8 @@ def test_every_answer_can_be_saved_with_all_that_obtains_it_again(session, name)
 
 def test_a_change_for_each_field_is_the_library_s(session):
     view = session.view.what_matters
-    session.do(view.change.param.update, value=5.0)
-    session.do(view.changes_of.boxes["boot_stiffness"].param.update, value=20.0)
+    session.do(view.change.param.update, value="5")
+    session.do(view.changes_of.boxes["boot_stiffness"].param.update, value="20")
     changes = dict.fromkeys(FIELDS, 0.05) | {"boot_stiffness": 0.2}
     expected = tig.decide.sensitivity(BLOCK, LIMITS, changes=changes)
     np.testing.assert_array_equal(view.inquiry.result.bands, expected.bands)
@@ -266,7 +389,7 @@ def test_what_the_scatter_is_due_to_is_the_library_s(session):
     view = session.view.what_scatters
     session.do(view.ask)
     shares = {
-        name: tig.decide.Uniform(box.value / 100) for name, box in view._how_sure.tolerances.boxes.items()
+        name: tig.decide.Uniform(box.number / 100) for name, box in view._how_sure.tolerances.boxes.items()
     }
     figures = ("margin", "deflection", "loaded_track", "coupled_block")
     expected = tig.decide.sobol(BLOCK, shares, LIMITS, figures=figures)
@@ -286,7 +409,7 @@ def test_measured_specimens_take_the_place_of_their_tolerances(session):
     assert view.tolerances.boxes["boot_stiffness"].disabled
     session.do(view.ask)
     shares = {
-        name: box.value / 100
+        name: box.number / 100
         for name, box in view.tolerances.boxes.items()
         if name not in ("boot_stiffness", "boot_loss_factor")
     }
@@ -319,7 +442,7 @@ def test_a_search_chooses_from_the_catalogue_within_a_deflection(session):
     view = session.view.search
     view.chosen.value = ["rail", "pad"]
     view.free.value = ["boot_stiffness", "pad_stiffness"]
-    view.deflection.value = 1.2
+    view.deflection.value = "1,2 mm"
     settings = view.settings()
     assert settings["free"] == ["boot_stiffness"], "the pad's stiffness comes with the pad"
     assert settings["max_deflection"] == pytest.approx(1.2e-3)
@@ -354,7 +477,7 @@ def test_a_search_chooses_measured_pads_of_the_catalogue_that_is_open(session):
     plain = int(np.flatnonzero(found.chosen["pad"][data["row"]] == "Plain")[0])
     assert (data["ys"][measured][2], data["ys"][plain][2]) == (0.0, 1.0)
     view.cloud.designs.selected.indices = [measured]
-    assert "Pad: Measured" in view.parts.object
+    assert "pad Measured" in view.parts.object
     session.do(view.take.param.trigger, "clicks")
     pad = CATALOGUE.of_kind("pad")["Measured"]
     taken = session.inputs.to_design()
@@ -429,8 +552,8 @@ def test_a_ground_scatters_where_it_has_a_tolerance(surrounded):
     view = surrounded.view.how_sure
     view.samples.value = 1000
     for box in view.tolerances.boxes.values():
-        box.value = 0.0
-    view.tolerances.boxes["ground.stiffness"].value = 30.0
+        box.value = "0"
+    view.tolerances.boxes["ground.stiffness"].value = "30"
     surrounded.do(view.ask)
     expected = tig.decide.tolerance(
         SPRUNG, LIMITS, {"ground.stiffness": 0.3}, samples=1000, reference="stiff"
