@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect, sync_playwright
 
+import trackig_core as tig
 from tests.waiting import WAIT
 
 ROOT = Path(__file__).parent.parent.parent
@@ -25,6 +26,12 @@ START_LIMIT = 120
 """Seconds that the server may take to start on a slow machine with no compiled kernels."""
 
 expect.set_options(timeout=1000 * WAIT)
+
+UNTOUCHED = "as it opened"
+"""Of a kept page: all tests that share it leave its design, tab and theme as they found them."""
+
+OPENING = "Booted block, low mass"
+"""The track that the dashboard opens with, by its name."""
 
 SOLVED = re.compile("Paper's run|Live run")
 """What the status line says once there is something to see."""
@@ -66,6 +73,17 @@ def wait_until_drawn(page, name):
             return view != null && view.has_finished() && view.el.isConnected
         }""",
         arg=name,
+    )
+
+
+def wait_for_levels(page, expected, source="insertion_gain"):
+    """Wait until the curve in the browser is the expected one; then compare it to the last digit shown."""
+    page.wait_for_function(
+        """([source, expected]) => {
+            const level = Bokeh.documents[0].get_model_by_name(source)?.data.level ?? []
+            return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
+        }""",
+        arg=[source, [float(level) for level in expected]],
     )
 
 
@@ -132,8 +150,9 @@ def chromium():
         if os.environ.get("TRACKIG_REQUIRE_BROWSER") == "1":
             pytest.fail(reason)
         pytest.skip(reason)
-    # containers lack the kernel features of the sandbox, and often a large /dev/shm
-    flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
+    # containers lack the kernel features of the sandbox, and often a large /dev/shm; pages that share a process
+    # share what it has compiled, which is more than half of what another page costs
+    flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--process-per-site"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=flags)
         yield browser
@@ -200,6 +219,8 @@ def _wait_until_served(url, server, log):
 
 class Reader:
     """A browser with one memory for scripts, which reads and compiles them once for all its pages.
+
+    The process that has compiled them lives as long as any page of the dashboard: one is always kept.
 
     Parameters
     ----------
@@ -274,6 +295,7 @@ class Reader:
 def reader(chromium, address):
     """Return a browser's reader of the dashboard."""
     one = Reader(chromium, address)
+    one.keep(left=UNTOUCHED)
     yield one
     one.close()
 
@@ -298,7 +320,26 @@ def dashboard(open_dashboard):
 @pytest.fixture
 def untouched_dashboard(reader):
     """Open the dashboard once for all tests that leave its design, tab and theme as they found them."""
-    yield reader.keep(left="as it opened")
+    yield reader.keep(left=UNTOUCHED)
+    reader.check()
+
+
+@pytest.fixture
+def published_dashboard(reader):
+    """Return a page that tests share which may change its design and its tab, and nothing else.
+
+    It shows what the dashboard opens with.
+    """
+    page = reader.keep(left="with any design in any tab")
+    page.get_by_role("tab", name="Explore", exact=True).click()
+    page.get_by_role("combobox", name="Track of Table 1", exact=True).select_option(OPENING)
+    back = page.get_by_role("button", name="Back to Table 1")
+    if back.is_enabled():
+        back.click()
+    expect(back).to_be_disabled()
+    wait_for_levels(page, tig.solve(tig.PRESETS["booted-block-low-mass"]).insertion_gain)
+    wait_until_solved(page)
+    yield page
     reader.check()
 
 
