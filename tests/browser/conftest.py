@@ -150,8 +150,8 @@ def chromium():
         if os.environ.get("TRACKIG_REQUIRE_BROWSER") == "1":
             pytest.fail(reason)
         pytest.skip(reason)
-    # containers lack the kernel features of the sandbox, and often a large /dev/shm; pages that share a process
-    # share what it has compiled, which is more than half of what another page costs
+    # containers lack the kernel features of the sandbox, and often a large /dev/shm; pages that share a
+    # process share what it has compiled, a third of what another page costs
     flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--process-per-site"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=flags)
