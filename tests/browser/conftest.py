@@ -150,9 +150,8 @@ def chromium():
         if os.environ.get("TRACKIG_REQUIRE_BROWSER") == "1":
             pytest.fail(reason)
         pytest.skip(reason)
-    # containers lack the kernel features of the sandbox, and often a large /dev/shm; pages that share a
-    # process share what it has compiled, a third of what another page costs
-    flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--process-per-site"]
+    # containers lack the kernel features of the sandbox, and often a large /dev/shm
+    flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=flags)
         yield browser
@@ -219,8 +218,6 @@ def _wait_until_served(url, server, log):
 
 class Reader:
     """A browser with one memory for scripts, which reads and compiles them once for all its pages.
-
-    The process that has compiled them lives as long as any page of the dashboard: one is always kept.
 
     Parameters
     ----------
@@ -295,7 +292,6 @@ class Reader:
 def reader(chromium, address):
     """Return a browser's reader of the dashboard."""
     one = Reader(chromium, address)
-    one.keep(left=UNTOUCHED)
     yield one
     one.close()
 
