@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect, sync_playwright
 
+import trackig_core as tig
 from tests.waiting import WAIT
 
 ROOT = Path(__file__).parent.parent.parent
@@ -66,6 +67,17 @@ def wait_until_drawn(page, name):
             return view != null && view.has_finished() && view.el.isConnected
         }""",
         arg=name,
+    )
+
+
+def wait_for_levels(page, expected, source="insertion_gain"):
+    """Wait until the curve in the browser is the expected one; then compare it to the last digit shown."""
+    page.wait_for_function(
+        """([source, expected]) => {
+            const level = Bokeh.documents[0].get_model_by_name(source)?.data.level ?? []
+            return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
+        }""",
+        arg=[source, [float(level) for level in expected]],
     )
 
 
@@ -299,6 +311,26 @@ def dashboard(open_dashboard):
 def untouched_dashboard(reader):
     """Open the dashboard once for all tests that leave its design, tab and theme as they found them."""
     yield reader.keep(left="as it opened")
+    reader.check()
+
+
+@pytest.fixture
+def published_dashboard(reader):
+    """Return a page that tests share which may change its design and its tab, and nothing else.
+
+    It shows what the dashboard opens with, chosen anew after another track.
+    """
+    page = reader.keep(left="with any design in any tab")
+    page.get_by_role("tab", name="Explore", exact=True).click()
+    presets = page.get_by_role("combobox", name="Track of Table 1", exact=True)
+    for name, preset in (
+        ("Booted sleeper", "booted-sleeper"),
+        ("Booted block, low mass", "booted-block-low-mass"),
+    ):
+        presets.select_option(name)
+        wait_for_levels(page, tig.solve(tig.PRESETS[preset]).insertion_gain)
+    wait_until_solved(page)
+    yield page
     reader.check()
 
 

@@ -55,9 +55,24 @@ def opened_specification(page):
     return tig.Study.from_toml(study).specification
 
 
-def test_sliders_show_where_the_design_complies_in_every_tab(open_dashboard):
-    page = open_dashboard()
-    paste(page)
+@pytest.fixture
+def limited(kept_dashboard):
+    """Return a function that gives the page of a size that tests share which change its design at most."""
+
+    def limited(width=1440, height=900):
+        page = kept_dashboard(width, height, left="with the limits pasted")
+        paste(page)
+        back = page.get_by_role("button", name="Back to Table 1")
+        if back.is_enabled():
+            back.click()
+        expect(back).to_be_disabled()
+        return page
+
+    return limited
+
+
+def test_sliders_show_where_the_design_complies_in_every_tab(limited):
+    page = limited()
     limits = opened_specification(page)
     wait_for_stretches(page, OPENING, limits)
     open_tab(page, "Explore")
@@ -80,9 +95,8 @@ PARTS = ("How far?", "What matters?", "How sure?", "Which tolerance?", "Which on
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768)])
-def test_all_parts_appear_when_the_tab_is_opened_by_click(open_dashboard, width, height):
-    page = open_dashboard(width, height)
-    paste(page)
+def test_all_parts_appear_when_the_tab_is_opened_by_click(limited, width, height):
+    page = limited(width, height)
     open_tab(page, "Decide")
     for title in PARTS:
         expect(page.get_by_role("heading", name=title, exact=True)).to_be_visible()
@@ -123,9 +137,8 @@ def test_a_map_is_drawn_kept_and_listed(open_dashboard):
     expect(page.get_by_text("The same figures came out, to the last bit.")).to_be_visible()
 
 
-def test_a_box_drawn_by_mouse_brushes_all_pictures_of_a_search(open_dashboard):
-    page = open_dashboard()
-    paste(page)
+def test_a_box_drawn_by_mouse_brushes_all_pictures_of_a_search(limited):
+    page = limited()
     open_tab(page, "Decide")
     page.get_by_role("tab", name="Search", exact=True).click()
     page.get_by_role("button", name="Find designs").click()

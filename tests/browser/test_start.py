@@ -9,6 +9,7 @@ from numba.core.caching import UserProvidedCacheLocator
 import trackig_core as tig
 from tests.browser.conftest import wait_until_solved
 from trackig_core.frequency_domain import batch_kernels
+from trackig_core.time_domain import kernels as time_kernels
 
 pytestmark = pytest.mark.browser
 
@@ -18,8 +19,12 @@ def keep_exact_kernels(folder):
 
     The latter alone takes longer to compile than a page to open; all of it takes as long as ten pages.
     """
-    part = UserProvidedCacheLocator.get_suitable_cache_subpath(batch_kernels.__file__)
-    shutil.copytree(batch_kernels.solve_rows.stats.cache_path, folder / part)
+    shutil.copytree(batch_kernels.solve_rows.stats.cache_path, folder_of(batch_kernels, folder))
+
+
+def folder_of(kernels, folder):
+    """Return where below a folder Numba keeps the compiled code of a module."""
+    return folder / UserProvidedCacheLocator.get_suitable_cache_subpath(kernels.__file__)
 
 
 def test_a_page_opened_while_kernels_are_compiled_shows_its_picture(
@@ -37,4 +42,6 @@ def test_a_page_opened_while_kernels_are_compiled_shows_its_picture(
             "() => Array.from(Bokeh.documents[0].get_model_by_name('insertion_gain').data.level)"
         )
         context.close()
+    # the server did compile them: it found none elsewhere
+    assert [*folder_of(time_kernels, tmp_path / "cache").glob("*.advance-*.nbc")]
     np.testing.assert_allclose(level, tig.solve(tig.PRESETS["booted-block-low-mass"]).insertion_gain)

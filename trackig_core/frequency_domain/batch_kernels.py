@@ -752,6 +752,7 @@ def solve_rows(
     straight, spare_straight = np.empty(CAPACITY, np.bool_), np.empty(CAPACITY, np.bool_)
     frequencies, at = np.empty(FREQUENCIES), np.empty((3, 1))
     not_stepped, nothing, unsprung = np.zeros((2, 7)), np.empty(0), np.empty(0, np.int64)
+    line = unsprung.size  # no ring; a literal zero would have all of this compiled once more for it
     for row in range(tracks.shape[0]):
         track = tracks[row]
         natural_frequencies(track, frequencies, False)
@@ -759,7 +760,7 @@ def solve_rows(
         loaded = frequencies[LOADED_TRACK]
         count, first = first_axis(loaded, edges, per_band, line_fraction, axis[0])
         count = refine(
-            track, nothing, unsprung, not_stepped, 0.0, 0, count, axis, straight, spare, spare_straight
+            track, nothing, unsprung, not_stepped, 0.0, line, count, axis, straight, spare, spare_straight
         )
         while axis[0, first] < edges[0]:
             first += 1
@@ -768,7 +769,7 @@ def solve_rows(
             if not (axis[1, i] > 0.0 and axis[1, i] < math.inf):
                 sound[row] = -1
         at[0, 0] = min(line_fraction * loaded, edges[-1])
-        force_energy(track, at[0], 1, at[1], at[2])
+        force_energy(track, at[0], at.shape[1], at[1], at[2])
         for kind in range(2):
             heights[row, kind] = at[1 + kind, 0] / at[0, 0] ** 2
             band_integrals(

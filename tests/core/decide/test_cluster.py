@@ -9,6 +9,7 @@ import pytest
 
 import trackig_core as tig
 from tests.core.decide.test_feasible import limits_around
+from tests.waiting import WAIT
 from trackig_core.decide import Grid, Normal, Samples, cluster, feasible_ranges, jobs, run_job, tolerance
 from trackig_core.decide.cluster import computed, solve_on_cluster
 
@@ -104,16 +105,11 @@ def fatal_task(number, folder):
 
 
 @pytest.mark.slow
-def test_a_killed_worker_loses_nothing(tmp_path):
+def test_a_killed_worker_loses_nothing(workers, tmp_path):
     """One of two processes is killed half-way; what it held is done again, and the figures are the same."""
     columns = {"boot_stiffness": np.geomspace(5e6, 80e6, 40 * cluster.TASK)}
     here = tig.solve_many(BLOCK, **columns)
-    with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0", memory_limit=0
-        ) as two,
-        distributed.Client(two) as client,
-    ):
+    with distributed.Client(workers) as client:
         victim = next(iter(client.run(os.getpid).values()))
         killed = threading.Event()
 
@@ -132,6 +128,7 @@ def test_a_killed_worker_loses_nothing(tmp_path):
         begun = {int(each.name.partition("-")[2]) for each in tmp_path.glob("8-*")}
         assert len(begun) == 2
         assert results[8][1] in begun
+        client.wait_for_workers(2, WAIT)  # others have been started for them, with which the next test works
 
 
 def test_a_restarted_job_skips_the_parts_that_are_there(tmp_path, monkeypatch):
