@@ -21,6 +21,7 @@ from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.document import in_turns
 from dashboard.compute.feasibility import Feasibility
+from dashboard.compute.pacing import PACE
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.responses import TrackResponses
 from dashboard.compute.runner import Runner
@@ -89,14 +90,14 @@ def build(store=None, live_store=None):
     assessment = Assessment(inputs, outcome, definition, pins, pinned)
     snapshot = SessionSnapshot(inputs, definition, pins, assessment, [tab.link_name for tab in TABS])
     problems = snapshot.follow(pn.state.session_args)
-    runner = Runner(inputs, outcome, store, live_store)
+    runner = Runner(inputs, outcome, store, live_store, PACE)
     runner.start()
     checker = VerificationRunner(outcome)
     feasibility, production = Feasibility(inputs, definition, assessment), Production()
     pn.state.on_session_destroyed(runner.close)
     pn.state.on_session_destroyed(pinned.close)
     measuring, shelf = Measuring(), Shelf()
-    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot, shelf)
+    browser, exchange = Browser(width=0, height=0, margin=0), Exchange(snapshot, shelf, PACE)
 
     def edit_curve(name):
         measuring.param.update(part=name.split("_")[0], reading=None, answered=False)

@@ -18,6 +18,7 @@ import panel as pn
 import param
 
 from dashboard.compute.document import on_next_tick, one_message
+from dashboard.compute.pacing import Pace
 from dashboard.session.shelf import Shelf
 from trackig_core.levels import band_tables
 from trackig_core.study import StudyError, studies
@@ -37,6 +38,9 @@ ACCEPTED = dict.fromkeys(MOST, ".csv,.txt,.tsv") | dict.fromkeys(("study", "cata
 
 REST = 0.3
 """Seconds without a change after which the address bar follows."""
+
+BUSY_REST = 1.5
+"""The same on a busy server, where pictures wait for whatever else is done."""
 
 COPIED = "The link is copied: it holds the design, the pinned designs and the view."
 NEEDS_FILE = "The link is copied, but needs the study file: it cannot hold {}. Send the study with it."
@@ -82,6 +86,8 @@ class Exchange(Scripted):
         What the address bar follows.
     shelf : Shelf, optional
         The catalogue that the browser remembers, whatever study is open.
+    pace : Pace, optional
+        Whether the server is busy; by default it has this session alone.
     """
 
     kept = param.List(default=["", ""], doc="Query string of the link, and the study as TOML.")
@@ -89,11 +95,11 @@ class Exchange(Scripted):
 
     _esm = (Path(__file__).parent / "scripts" / "exchange.js").read_text(encoding="utf-8")
 
-    def __init__(self, snapshot, shelf=None):
+    def __init__(self, snapshot, shelf=None, pace=None):
         super().__init__(
             session=secrets.token_hex(8), width=0, height=0, margin=0, styles={"position": "absolute"}
         )
-        self._snapshot, self._shelf = snapshot, shelf or Shelf()
+        self._snapshot, self._shelf, self._pace = snapshot, shelf or Shelf(), pace or Pace()
         self._openers, self._key_listeners = {}, {}
         self._waiting = False
         self._changed = False
@@ -113,7 +119,7 @@ class Exchange(Scripted):
         try:
             while self._changed:
                 self._changed = False
-                await asyncio.sleep(REST)
+                await asyncio.sleep(BUSY_REST if self._pace.is_busy else REST)
             self._note()
         finally:
             self._waiting = False

@@ -3,12 +3,13 @@
 The server's event loop does one thing at a time, and a message of a page takes a dozen of its turns: if a
 page that opens took every other turn for one of its parts, each message would wait for a dozen parts. So
 parts begin one at a time for all pages of the process, and whoever works at an open page comes first, for a
-while.
+while. How long drawing takes says whether the server is busy; some work is then left for later.
 """
 
 import asyncio
 import logging
 import time
+from contextvars import copy_context
 from heapq import heappop, heappush
 from itertools import count
 from weakref import WeakSet
@@ -22,6 +23,9 @@ PATIENCE = 0.15
 BREATH = 0.002
 """Time after a part began in which the event loop comes to it [s]."""
 
+BUSY = 0.1
+"""Time that drawing takes where the server is busy with other sessions; alone it takes a third of that [s]."""
+
 log = logging.getLogger(__name__)
 
 
@@ -32,7 +36,17 @@ class Pace:
         self._waiting, self._order = [], count()
         self._opening = WeakSet()
         self._heard = -PATIENCE
+        self._drawing = 0.0
         self._task = None
+
+    @property
+    def is_busy(self):
+        """Whether pages wait for their pictures longer than one would alone."""
+        return self._drawing > BUSY
+
+    def drew(self, seconds):
+        """Note how long drawing a picture took, from when it could be drawn [s]."""
+        self._drawing = seconds
 
     def hear(self, document):
         """Note that a page sent something; one that opens does not count as one where somebody works.
@@ -63,7 +77,8 @@ class Pace:
         is_new : bool
             Whether it is for a page that has not begun; those that have begun come first.
         """
-        heappush(self._waiting, (is_new, next(self._order), work))
+        # it is done for who asked: the context says whose document is current
+        heappush(self._waiting, (is_new, next(self._order), copy_context(), work))
         # an event loop that has ended leaves a task that is done
         if self._task is None or self._task.done():
             self._task = asyncio.get_running_loop().create_task(self._pace())
@@ -77,9 +92,9 @@ class Pace:
     async def _pace(self):
         while self._waiting:
             await self._until_quiet()
-            *_, work = heappop(self._waiting)
+            *_, context, work = heappop(self._waiting)
             try:
-                work()
+                context.run(work)
             except Exception:
                 log.exception("A part of a page could not begin")
             await asyncio.sleep(BREATH)

@@ -21,6 +21,7 @@ import param
 import trackig_core as tig
 from dashboard.compute.document import on_next_tick
 from dashboard.compute.latest import Latest, publish, readable
+from dashboard.compute.pacing import Pace
 from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, compiled, key_of
 from dashboard.fields import PHYSICAL
 
@@ -32,9 +33,6 @@ RESTS = 2
 
 SOON = 0.06
 """Seconds for which a live run is waited for before the exact curve is drawn."""
-
-BUSY = 0.1
-"""Seconds that drawing takes on a server that is busy with other sessions; alone it takes a third of that."""
 
 PATIENCE = 0.5
 """Seconds of work after which a live run, under light damping, is given up for the paper's."""
@@ -81,19 +79,22 @@ class Runner(param.Parameterized):
         What is kept up to date.
     store, live_store : SolutionStore
         Where pictures at rest come from, and those that follow the hand.
+    pace : Pace, optional
+        Whether the server is busy; by default it has this session alone.
     """
 
     requests = param.Integer(default=0, doc="How often the inputs were to be solved as they stand.")
 
-    def __init__(self, inputs, outcome, store, live_store):
+    def __init__(self, inputs, outcome, store, live_store, pace=None):
         super().__init__()
+        self._pace = pace or Pace()
         self.inputs = inputs
         self.outcome = outcome
         self._store = store
         self._live_store = live_store
         self._latest = Latest(self._solve)
         self._stopping = False
-        self._live_is_slow = self._server_is_busy = False
+        self._live_is_slow = False
         self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
         self.param.watch(self._on_change, "requests")
 
@@ -168,12 +169,12 @@ class Runner(param.Parameterized):
 
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
-        is_busy = self._server_is_busy or self._live_store.is_crowded()
+        is_busy = self._pace.is_busy or self._live_store.is_crowded()
         taken = await self._draw_exact(design, document) if is_busy else None
         if taken is None:
             taken = await self._draw_live(design, document)
         drawing = await self._until_drawn(document)
-        self._server_is_busy = drawing > BUSY
+        self._pace.drew(drawing)
         if await self._latest.news_within(max(REST, RESTS * (taken + drawing))):
             raise _SupersededError
 

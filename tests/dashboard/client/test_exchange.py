@@ -11,6 +11,7 @@ from panel_material_ui.notifications import NotificationArea
 import trackig_core as tig
 from dashboard.client import exchange as exchange_module
 from dashboard.client.exchange import Exchange, opening
+from dashboard.compute.pacing import Pace
 from dashboard.session.inputs import values_of
 from dashboard.session.shelf import Shelf
 from tests.waiting import until_at_rest
@@ -46,7 +47,8 @@ def told(monkeypatch):
     return words
 
 
-def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatch):
+@pytest.mark.parametrize(("drawing", "at_rest"), [(0.01, "REST"), (1.0, "BUSY_REST")])
+def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatch, drawing, at_rest):
     async def run():
         rest = asyncio.Event()
         waited = []
@@ -56,7 +58,9 @@ def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatc
             return rest.wait()
 
         monkeypatch.setattr(exchange_module, "asyncio", SimpleNamespace(sleep=until_rest))
-        exchange = Exchange(session.snapshot)
+        pace = Pace()
+        pace.drew(drawing)
+        exchange = Exchange(session.snapshot, pace=pace)
         assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml()]
         noted = []
         exchange.param.watch(lambda event: noted.append(event.new), "kept")
@@ -67,7 +71,7 @@ def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatc
         assert noted == []
         rest.set()
         await until_at_rest()
-        assert set(waited) == {exchange_module.REST}
+        assert set(waited) == {getattr(exchange_module, at_rest)}
         assert len(waited) == 2, "changes that come while others rest are waited for too"
         assert noted == [[session.snapshot.query(), session.snapshot.study().to_toml()]]
         assert "boot_stiffness=39" in noted[0][0]

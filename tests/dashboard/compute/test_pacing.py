@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+from contextvars import ContextVar
 
 import pytest
 from bokeh.document import Document
@@ -98,6 +99,20 @@ async def hear_and_come(pace, document):
         await pace.turn()
     finally:
         working.cancel()
+
+
+def test_each_part_begins_for_the_page_that_asked():
+    async def ask(name):
+        page.set(name)
+        pace.begin(lambda: begun.append((name, page.get())))
+
+    async def come():
+        await asyncio.gather(*(asyncio.create_task(ask(name)) for name in "abc"))
+        await pace.turn()
+
+    pace, begun, page = Pace(), [], ContextVar("page")
+    asyncio.run(asyncio.wait_for(come(), 30))
+    assert begun == [(name, name) for name in "abc"]
 
 
 def test_a_part_that_cannot_begin_holds_up_nothing(caplog):

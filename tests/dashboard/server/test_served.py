@@ -117,3 +117,15 @@ def test_nobody_comes_in_without_the_password_and_the_server_ends_when_told(tmp_
         assert "This is not the password" not in page
     assert served.process.returncode == 0
     assert "Traceback" not in served.log.read_text()
+
+
+def test_pages_that_open_at_once_have_their_pictures(served):
+    async def come():
+        visitors = [Visitor(served.host + "/tools/dashboard") for _ in range(8)]
+        await asyncio.gather(*(each.open() for each in visitors))
+        for each in visitors:
+            each.close()
+
+    said = len(served.log.read_text())
+    asyncio.run(come())
+    assert served.log.read_text()[said:] == ""
