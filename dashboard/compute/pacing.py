@@ -24,7 +24,7 @@ BREATH = 0.002
 """Time after a part began in which the event loop comes to it [s]."""
 
 BUSY = 0.1
-"""Time that drawing takes where the server is busy with other sessions; alone it takes a third of that [s]."""
+"""Time that drawing takes on a server that is busy with others; alone it takes a third of that [s]."""
 
 log = logging.getLogger(__name__)
 
