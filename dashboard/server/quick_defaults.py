@@ -1,23 +1,36 @@
-"""Has Bokeh look up once what never changes about the defaults of its models.
+"""Has Bokeh look up once what never changes about its models, defaults above all.
 
 Whatever reads a property that nobody set (when a model is made, walked through or sent) asks for its default.
 Each time Bokeh gathers the overridden defaults along the class's ancestors, asks every part of a property's
 type whether a default of it could change, and looks for a theme of the instance in a way that ends in an
 exception. A page opens with 20,000 such questions: a quarter of its processor time.
+
+Each message begins with the references to all models of the page, made anew; each value that is converted has
+its property's type put into words first, in case it were refused; and each of Panel's callbacks has its
+signature looked through.
 """
 
+from functools import cached_property, partial
 from types import FunctionType
 
 from bokeh.core.has_props import HasProps
 from bokeh.core.property.bases import ParameterizedProperty
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.core.property.instance import InstanceDefault
+from bokeh.model import Model
+from bokeh.util import callback_manager
 
 _overridden = {}
 """Overridden defaults of a class, by the class; classes of models last as long as the process."""
 
 _gather = HasProps._overridden_defaults.__func__
 _ask_parts = ParameterizedProperty._may_have_unstable_default
+_put_into_words = ParameterizedProperty.__str__
+_check_signature = callback_manager._check_callback
+_refer = Model.ref.fget
+
+_checked = set()
+"""Methods, with what they are given beforehand and what they are called with, whose signature fits."""
 
 
 def _overridden_defaults(cls):
@@ -42,9 +55,30 @@ def _may_have_unstable_default(self):
     return found
 
 
+def _words(self):
+    found = self.__dict__.get("_trackig_words")
+    if found is None:
+        found = self._trackig_words = _put_into_words(self)
+    return found
+
+
+def _check_callback(callback, fargs, what="Callback functions"):
+    if not (isinstance(callback, partial) and hasattr(callback.func, "__func__")):
+        _check_signature(callback, fargs, what)
+        return
+    known = (callback.func.__func__, len(callback.args), *callback.keywords, *fargs)
+    if known not in _checked:
+        _check_signature(callback, fargs, what)
+        _checked.add(known)
+
+
 def install():
     """Have it do so in this process."""
     HasProps._overridden_defaults = classmethod(_overridden_defaults)
     HasProps.themed_values = _themed_values
     PropertyDescriptor.is_unstable = classmethod(_is_unstable)
     ParameterizedProperty._may_have_unstable_default = _may_have_unstable_default
+    ParameterizedProperty.__str__ = _words
+    callback_manager._check_callback = _check_callback
+    Model.ref = cached_property(_refer)
+    Model.ref.__set_name__(Model, "ref")

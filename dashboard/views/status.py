@@ -108,7 +108,7 @@ def status_words(outcome):
         # where little is lost the force takes longer, and where many share the server drawing it does
         simple = summary.design == summary.design.simplified
         when = "its force follows when the inputs rest" if simple else MORE_THAN_SIMPLIFIED
-        words = f"Exact curve, solved in {took}; {when}"
+        words = f"Exact curve; {when}"
     elif summary.solution.fidelity == "live":
         words = f"Live run, solved in {took}; the paper's run follows when the inputs rest"
     elif outcome.from_cache:

@@ -1,12 +1,14 @@
 """Defaults of models are what Bokeh finds, themes and changeable ones included, and are looked up once."""
 
 import re
+from functools import partial
 
 import pytest
 from bokeh.core.has_props import HasProps
 from bokeh.core.property.bases import ParameterizedProperty
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.models import ColumnDataSource, LinearAxis, Model, Plot
+from bokeh.util import callback_manager
 
 from dashboard.server import quick_defaults
 
@@ -15,6 +17,9 @@ REPLACED = (
     (HasProps, "themed_values"),
     (PropertyDescriptor, "is_unstable"),
     (ParameterizedProperty, "_may_have_unstable_default"),
+    (ParameterizedProperty, "__str__"),
+    (callback_manager, "_check_callback"),
+    (Model, "ref"),
 )
 
 
@@ -59,6 +64,39 @@ def test_models_share_no_default_that_may_change(install):
     one.data["x"] = [1.0]
     assert dict(other.data) == {}
     assert Plot().x_range is not Plot().x_range
+
+
+def test_types_are_told_as_bokeh_tells_them(install):
+    def told():
+        return [str(Plot.lookup(name).property) for name in sorted(Plot.properties())]
+
+    before = told()
+    install()
+    assert told() == told() == before
+
+
+def test_callbacks_that_do_not_fit_are_refused_still(install):
+    class Watcher:
+        def note(self, page, attr, old, new):
+            pass
+
+    install()
+    plot = Plot()
+    for watcher in (Watcher(), Watcher()):
+        plot.on_change("name", partial(watcher.note, "page"))
+        with pytest.raises(ValueError, match="must have signature"):
+            plot.on_change("name", watcher.note)
+        with pytest.raises(ValueError, match="must have signature"):
+            plot.on_change("name", partial(watcher.note, "page", "attr"))
+
+
+def test_models_are_referred_to_by_their_identity(install):
+    install()
+    one, other = Plot(), Plot()
+    for _ in range(2):
+        assert one.ref == {"id": one.id}
+        assert other.ref == {"id": other.id}
+    assert one.clone().ref["id"] != one.id
 
 
 def test_a_theme_comes_and_goes(install):

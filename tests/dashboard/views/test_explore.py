@@ -67,7 +67,7 @@ def test_an_exact_curve_leaves_the_last_force_dimmed_until_a_run_is_there(
     exact = SolutionSummary.of(tig.solve(summary("booted-sleeper").design, "exact"), 0.002)
     outcome.summary = exact
     assert view.fidelity.label == "exact curve"
-    assert status_words(outcome).startswith("Exact curve, solved in 2 ms")
+    assert status_words(outcome).startswith("Exact curve; its force follows")
     assert view.insertion_gain.bands.data["level"] == pytest.approx(exact.solution.insertion_gain)
     assert view.force.samples.data is force
     gain_pane, force_pane = view.panes
