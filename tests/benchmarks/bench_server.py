@@ -28,6 +28,9 @@ SCALE = float(os.environ.get("TRACKIG_BENCH_SCALE", "1"))
 SECONDS = 20 * min(1.0, 2 * SCALE)
 """Time for which sessions move their sliders [s]."""
 
+SETTLED = 3
+"""Time after which pages that have their pictures are there whole [s]."""
+
 PATIENCE = 120
 """Time that a picture may take [s]."""
 
@@ -100,6 +103,8 @@ async def drag_whatever_comes(visitor, waits):
 async def load(served, polite, flooding):
     """Return the waits of polite and of flooding sessions [s], and the processor time of a picture [s]."""
     visitors = await opened(served, polite + flooding)
+    # what is below the picture is still put on the page
+    await asyncio.sleep(SETTLED)
     waits = [[] for _ in visitors]
     kinds = [drag_politely] * polite + [drag_whatever_comes] * flooding
     before = processor(served)
