@@ -2,17 +2,24 @@
 
 Tests run in two processes. Those in a browser come first, since they take longest, and stay together module
 by module, since opening a browser is dear; other slow ones come next, so that no process waits for the other
-to end one. A run that decides whether a change may land draws the same
-examples every time; others explore. No example has a deadline: the first may compile kernels, and machines
-are shared.
+to end one. (A mark of pytest-xdist's would say so, too, but that of 3.8 means nothing to pytest 9.2.)
+
+A run that decides whether a change may land draws the same examples every time; others explore. No example
+has a deadline: the first may compile kernels, and machines are shared.
 """
 
 import os
 
-import pytest
 from hypothesis import settings
+from xdist.scheduler import LoadScopeScheduling
 
 import trackig_core as tig
+
+TOGETHER = ("tests/browser/", "tests/core/decide/test_cluster.py", "tests/core/test_compiling.py")
+"""Modules, or folders of such, that stay in one process each: browsers, servers and caches are dear."""
+
+SERVED = "tests/dashboard/server"
+"""Folder whose modules share one server."""
 
 settings.register_profile("explore", deadline=None)
 settings.register_profile("ci", derandomize=True, deadline=None)
@@ -25,10 +32,21 @@ def pytest_sessionstart(session):
         tig.compile_kernels()
 
 
-@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Put tests in a browser first, each of their modules into one process, then other slow ones."""
+    """Put tests in a browser first, then other slow ones."""
     items.sort(key=lambda item: [item.get_closest_marker(name) is None for name in ("browser", "slow")])
-    for item in items:
-        if item.get_closest_marker("browser") is not None:
-            item.add_marker(pytest.mark.xdist_group(item.path.stem))
+
+
+class Together(LoadScopeScheduling):
+    """Gives what shares something dear to one process, and every other test to the first that is free."""
+
+    def _split_scope(self, nodeid):
+        module = nodeid.partition("::")[0]
+        if module.startswith(TOGETHER):
+            return module
+        return SERVED if module.startswith(SERVED) else nodeid
+
+
+def pytest_xdist_make_scheduler(config, log):
+    """Return what shares tests out between the processes."""
+    return Together(config, log)

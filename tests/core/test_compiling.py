@@ -11,7 +11,7 @@ import pytest
 
 import trackig_core
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("compiling")]
+pytestmark = pytest.mark.slow
 
 SOLVE = """
 import sys, tempfile

@@ -18,7 +18,6 @@ distributed = pytest.importorskip("distributed")
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 
 pytestmark = [
-    pytest.mark.xdist_group("cluster"),
     # Dask itself leaves sockets to the collector, and warns of clusters that are slow to close
     pytest.mark.filterwarnings("ignore::ResourceWarning"),
     pytest.mark.filterwarnings("ignore::DeprecationWarning"),

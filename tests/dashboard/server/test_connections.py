@@ -14,7 +14,7 @@ from tests.dashboard.server.test_served import health
 from tests.visitor import Visitor
 from tests.waiting import WAIT, until
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("served")]
+pytestmark = pytest.mark.slow
 
 PAGE = b"/tools/dashboard"
 

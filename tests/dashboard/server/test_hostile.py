@@ -82,7 +82,6 @@ async def disturb(url, seed, count):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("served")
 def test_nonsense_on_the_socket_disturbs_nobody_else(served):
     async def beside():
         polite = await Visitor(served.host + "/tools/dashboard").open()

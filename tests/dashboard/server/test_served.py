@@ -14,7 +14,7 @@ from tests.dashboard.server.conftest import serving
 from tests.visitor import Visitor, told
 from tests.waiting import WAIT, until
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("served")]
+pytestmark = pytest.mark.slow
 
 
 def health(served, prefix="/tools"):
