@@ -76,7 +76,7 @@ def status_html(outcome):
     kind = "problem" if outcome.problem and not outcome.busy else "fine"
     words = html.escape(status_words(outcome))
     # with the focus, by a finger or the Tab key, it unfolds over the pictures
-    return f'<div role="status" tabindex="0" class="{kind}" title="{words}">{words}</div>'
+    return f'<div role="status" aria-label="Status" tabindex="0" class="{kind}" title="{words}">{words}</div>'
 
 
 COMPILING = "Compiling the solver for this computer; it takes some seconds, at the first start only …"
