@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, Unpack, cast
 
@@ -231,6 +232,8 @@ def run_job(
     check_choice("fidelity", fidelity, FIDELITIES)
     check_choice("reference", reference, REFERENCES)
     check_choice("summation", summation, SUMMATIONS)
+    if find_spec("pyarrow") is None:
+        raise ImportError("a folder of Parquet files needs pyarrow: pip install trackig[cluster]")
     rows = part or (PART if fidelity == "exact" else STEPPED_PART)
     folder = Path(folder)
     _claim(

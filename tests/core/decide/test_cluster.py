@@ -197,3 +197,10 @@ def test_samples_are_those_of_one_draw():
     whole, part = samples.columns(0, 1000), samples.columns(512, 600)
     for name, values in part.items():
         assert np.array_equal(values, whole[name][512:600])
+
+
+def test_without_pyarrow_it_is_said_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setattr(jobs, "find_spec", lambda _: None)
+    with pytest.raises(ImportError, match="needs pyarrow: pip install"):
+        run_job(Grid(BLOCK, {"boot_stiffness": [10e6, 20e6]}), tmp_path / "job")
+    assert not (tmp_path / "job").exists()
