@@ -4,20 +4,22 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 """
 
 import gc
+from functools import partial
 
 from tornado.ioloop import IOLoop
 
 import trackig_core as tig
-from dashboard.app import TITLE, rehearse
+from dashboard.app import TITLE, assemble
 from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
-from dashboard.server import first_page, quick_defaults, sessions
+from dashboard.server import bokeh_shortcuts, first_page, sessions
+from dashboard.server.reserve import RESERVE
 from dashboard.server_log import leave_out_departures, leave_out_empty_places
 
 # the server is made after its hooks are read
 first_page.install()
-quick_defaults.install()
+bokeh_shortcuts.install()
 
 
 def on_server_loaded(server_context):
@@ -34,9 +36,10 @@ def on_server_loaded(server_context):
     first_page.prepare(server_context.application_context, TITLE)
     # what stays so far: looking through it for garbage would stop every session for 0.1 s now and then
     gc.freeze()
-    # a page that is made of the opening picture asks for no other
+    # a page that is made of the opening picture asks for no other; the first prepares classes and scripts
     loop = IOLoop.current()
-    opening.future.add_done_callback(lambda _: loop.add_callback(rehearse))
+    serve = partial(RESERVE.serve, server_context.application_context, assemble, TITLE, sessions.ahead())
+    opening.future.add_done_callback(lambda _: loop.add_callback(serve))
 
 
 def on_session_destroyed(session_context):

@@ -8,10 +8,12 @@ title = "trackig"
 try:
     from dashboard.app import TITLE, build
     from dashboard.server import first_page, sessions
+    from dashboard.server.reserve import RESERVE
 
     first_page.use_own_files(pn.state.curdoc)
     if sessions.admit(pn.state.curdoc):
-        page, title = build(), TITLE
+        is_ready = RESERVE.open(pn.state.curdoc, pn.state.session_args)
+        page, title = None if is_ready else build(), TITLE
     else:
         page, title = sessions.full_page(), f"{TITLE} is full"
 except Exception:
@@ -22,4 +24,5 @@ except Exception:
     title = "trackig could not start"
 
 # the location would be read back from the address bar, which anybody may have typed
-page.servable(title=title, location=False)
+if page is not None:
+    page.servable(title=title, location=False)

@@ -103,11 +103,12 @@ class Exchange(Scripted):
         self._openers, self._key_listeners = {}, {}
         self._waiting = False
         self._changed = False
-        self._note()
+        self.note()
         snapshot.watch(self._follow)
         self._shelf.param.watch(self._remember, "catalogue")
 
-    def _note(self):
+    def note(self):
+        """Have the browser keep what there is now."""
         self.kept = [self._snapshot.query(), self._snapshot.study().to_toml()]
 
     async def _follow(self, *_):
@@ -120,7 +121,7 @@ class Exchange(Scripted):
             while self._changed:
                 self._changed = False
                 await asyncio.sleep(BUSY_REST if self._pace.is_busy else REST)
-            self._note()
+            self.note()
         finally:
             self._waiting = False
 
@@ -205,7 +206,7 @@ class Exchange(Scripted):
             log.info("A page's memory was refused", exc_info=True)
             notify("warning", NOT_RESTORED)
         self._snapshot.steps.restart()
-        self._note()
+        self.note()
         self._send_msg({"kind": "keep"})
 
 

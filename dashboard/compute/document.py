@@ -6,7 +6,9 @@ they do in a next-tick callback. However many changes ask for it meanwhile, it i
 
 import contextlib
 import logging
+from collections import deque
 from functools import partial
+from weakref import WeakKeyDictionary
 
 import panel as pn
 
@@ -17,6 +19,9 @@ log = logging.getLogger(__name__)
 _open = []
 """Documents that may change now, since a next-tick callback holds their lock; it is released before any other
 work of the event loop."""
+
+_gathered = WeakKeyDictionary()
+"""Steps of pages that nobody has asked for yet, by their documents."""
 
 
 class NextTick:
@@ -88,12 +93,41 @@ def in_turns(steps, on_error):
         Called with the exception of a step that failed; what follows it in the iterator is still done.
     """
     document = pn.state.curdoc
+    if document in _gathered:
+        _gathered[document].append(steps)
+        return
     if document is None or document.session_context is None:
         for _ in steps:
             pass
         return
     begin = partial(_begin_turn, document, steps, on_error)
     begin() if pn.state.loaded else pn.state.onload(begin)
+
+
+@contextlib.contextmanager
+def gathering(document):
+    """Have the steps of a page that nobody has asked for yet handed to whoever makes it.
+
+    Parameters
+    ----------
+    document : bokeh.document.Document
+        The page's.
+
+    Yields
+    ------
+    iterator
+        Does a step whenever it is asked for the next item; what fails raises.
+    """
+    queue = _gathered[document] = deque()
+    try:
+        yield _drained(queue)
+    finally:
+        del _gathered[document]
+
+
+def _drained(queue):
+    while queue:
+        yield from queue.popleft()
 
 
 def _begin_turn(document, steps, on_error):

@@ -23,6 +23,9 @@ PATIENCE = 0.15
 BREATH = 0.002
 """Time after a part began in which the event loop comes to it [s]."""
 
+IDLE = 1.0
+"""Time in which nobody works and no page opens after which something is done that nobody waits for [s]."""
+
 BUSY = 0.1
 """Time that drawing takes on a server that is busy with others; alone it takes a third of that [s]."""
 
@@ -36,6 +39,7 @@ class Pace:
         self._waiting, self._order = [], count()
         self._opening = WeakSet()
         self._heard = -PATIENCE
+        self._worked = -IDLE
         self._drawing = 0.0
         self._task = None
 
@@ -56,11 +60,13 @@ class Pace:
         document : bokeh.document.Document
             The session's.
         """
+        self._worked = time.monotonic()
         if document not in self._opening:
-            self._heard = time.monotonic()
+            self._heard = self._worked
 
     def enter(self, document):
         """Note that a page, or a part of it, opens."""
+        self._worked = time.monotonic()
         self._opening.add(document)
 
     def leave(self, document):
@@ -88,6 +94,11 @@ class Pace:
         turn = asyncio.get_running_loop().create_future()
         self.begin(lambda: turn.done() or turn.set_result(None), is_new=True)
         await turn
+
+    async def idle(self):
+        """Wait until nobody has worked and no page has opened for a while."""
+        while (left := self._worked + IDLE - time.monotonic()) > 0:
+            await asyncio.sleep(left)
 
     async def _pace(self):
         while self._waiting:

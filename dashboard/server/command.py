@@ -50,6 +50,8 @@ class Site:
         What visitors have to type, if anything.
     most_sessions : int or None
         Pages that may be open at a time, in each process; None: as many as usual.
+    pages_ahead : int or None
+        Pages that each process keeps ready; None: as many as usual.
     """
 
     address: str
@@ -58,6 +60,7 @@ class Site:
     origins: tuple[str, ...]
     password: str | None
     most_sessions: int | None
+    pages_ahead: int | None
 
     @property
     def path(self):
@@ -97,6 +100,12 @@ def add_arguments(command, number, port):
     command.add_argument(
         "--most-sessions", type=number, metavar="N", help="pages that may be open at a time, in each process"
     )
+    command.add_argument(
+        "--pages-ahead",
+        type=number,
+        metavar="N",
+        help="pages that each process keeps ready for who comes next",
+    )
     command.add_argument("--show", action="store_true", help="open the dashboard in a browser")
 
 
@@ -128,6 +137,7 @@ def serve(options):
         _origins(hosts, options.port, options.allow_origin),
         password,
         options.most_sessions,
+        options.pages_ahead,
     )
     announce = partial(_announce, site, hosts, options.show)
     # the server is slow to load, and no other command needs it

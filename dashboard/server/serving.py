@@ -193,8 +193,8 @@ def run(site, listeners, shares, number, secret, announce):
     announce : callable
         Called once pages can be served.
     """
-    if site.most_sessions is not None:
-        os.environ[sessions.MOST_VARIABLE] = str(site.most_sessions)
+    told = {sessions.MOST_VARIABLE: site.most_sessions, sessions.AHEAD_VARIABLE: site.pages_ahead}
+    os.environ.update({name: str(number) for name, number in told.items() if number is not None})
     beats = [time.monotonic()]
     waiting = deque()
 

@@ -1,4 +1,4 @@
-"""How many sessions there may be, and what is forgotten when one ends.
+"""How many sessions there may be, how many pages are kept ready, and what is forgotten when a session ends.
 
 One session holds some 12 MB, and whatever its user makes it hold is bounded: eight pinned designs, a hundred
 steps of undo, files and messages of :data:`MOST_MESSAGE_BYTES` at most.
@@ -14,6 +14,12 @@ MOST_VARIABLE = "TRACKIG_MOST_SESSIONS"
 
 MOST_SESSIONS = 60
 """Sessions that a process serves at a time unless told otherwise: some 1 GB."""
+
+AHEAD_VARIABLE = "TRACKIG_PAGES_AHEAD"
+"""Environment variable by which ``trackig serve --pages-ahead`` tells its processes."""
+
+PAGES_AHEAD = 4
+"""Pages that a process keeps ready for whoever comes next, unless told otherwise."""
 
 MOST_MESSAGE_BYTES = 4 * 2**20
 """Size of a message from a browser [bytes]; the largest file that may be opened is far smaller."""
@@ -34,9 +40,19 @@ def most():
     return int(os.environ.get(MOST_VARIABLE, MOST_SESSIONS))
 
 
+def ahead():
+    """Return how many pages this process keeps ready."""
+    return int(os.environ.get(AHEAD_VARIABLE, PAGES_AHEAD))
+
+
 def count():
     """Return how many sessions are open in this process."""
     return len(_open)
+
+
+def is_full():
+    """Return whether there is no room for another."""
+    return count() >= most()
 
 
 def admit(document):
@@ -52,7 +68,7 @@ def admit(document):
     bool
         Whether there is room for it.
     """
-    if count() >= most():
+    if is_full():
         return False
     _open.add(id(document))
     return True

@@ -3,7 +3,7 @@
 Run with ``python -m pip install -e ".[dev]"`` and ``pytest tests/benchmarks/bench_dashboard.py``.
 """
 
-import itertools
+import collections
 import json
 import subprocess
 import sys
@@ -15,9 +15,11 @@ import panel as pn
 import pytest
 from bokeh.document import Document
 from bokeh.protocol import Protocol
+from panel.io.state import set_curdoc
 
 import trackig_core as tig
 from dashboard import app
+from dashboard.compute.document import gathering
 from dashboard.compute.pinned import PinnedSummaries
 from dashboard.compute.workers import AT_REST, MOVING, shared_live_store, shared_store, solve_summary
 from dashboard.session.assessment import Assessment
@@ -77,12 +79,12 @@ def test_a_frame_on_the_server(benchmark, tell):
     tell(benchmark.stats["median"])
 
 
-def opening():
+def opening(is_ahead):
     """Open a page as a session does, without one, and return the processor time of each piece [ms].
 
-    Pieces are what the event loop does without a break.
+    Pieces are what the event loop does without a break; of a page that was made ahead, once somebody asks.
     """
-    pieces, parts, events = [], [], []
+    pieces, events = [], []
 
     def timed(action):
         began = time.process_time()
@@ -97,27 +99,26 @@ def opening():
             Protocol().create("PATCH-DOC", events)
         return done is not end
 
-    in_turns, app.in_turns = app.in_turns, lambda steps, _: parts.append(steps)
     document, end = Document(), object()
-    try:
-        timed(lambda: app.build().server_doc(document, location=False))
-    finally:
-        app.in_turns = in_turns
-    timed(document.to_json)
-    document.on_change(events.append)
-    steps = itertools.chain(*parts)
-    while timed(lambda: step(steps, end)):
-        pass
+    with gathering(document) as steps, set_curdoc(document):
+        page, follow = timed(lambda: app.assemble({}))
+        timed(lambda: page.server_doc(document, location=False))
+        if is_ahead:
+            collections.deque(steps, maxlen=0)
+            pieces.clear()
+            timed(lambda: follow({}))
+        timed(document.to_json)
+        document.on_change(events.append)
+        while timed(lambda: step(steps, end)):
+            pass
     return pieces
 
 
-def openings(rehearsed, count=5):
+def openings(is_ahead, count=5):
     """Print the pieces of several openings in a fresh process, and the time of a paper run [ms]."""
     tig.compile_kernels()
     shared_store().request((OPENING, AT_REST)).future.result()
-    if rehearsed:
-        app.rehearse()
-    found = [opening() for _ in range(count)]
+    found = [opening(is_ahead) for _ in range(count)]
     runs = []
     for _ in range(3):
         began = time.process_time()
@@ -126,15 +127,15 @@ def openings(rehearsed, count=5):
     print(json.dumps([found, min(runs)]))  # noqa: T201
 
 
-@pytest.mark.parametrize("rehearsed", [False, True], ids=["no rehearsal", "rehearsed"])
-def test_opening(rehearsed, tell, remark):
+@pytest.mark.parametrize("is_ahead", [False, True], ids=["while somebody waits", "ahead"])
+def test_opening(is_ahead, tell, remark):
     """What a page costs the server until all of it is there: the first of a process, and later ones."""
-    code = f"from tests.benchmarks.bench_dashboard import openings; openings({rehearsed})"
+    code = f"from tests.benchmarks.bench_dashboard import openings; openings({is_ahead})"
     output = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
     found, run = json.loads(output.splitlines()[-1])
     warm = [min(pieces) for pieces in zip(*found[1:], strict=True)]
     for name, pieces in (("first", found[0]), ("later", warm)):
-        which = f"opening, {name} page{', rehearsed' if rehearsed else ''}"
+        which = f"opening, {name} page, made {'ahead' if is_ahead else 'while somebody waits'}"
         tell(sum(pieces) / 1000, which)
         remark(
             f"{which}: {sum(pieces):.0f} ms, {sum(pieces) / run:.2f} paper runs, "

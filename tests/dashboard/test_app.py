@@ -9,6 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import panel as pn
 import pytest
+from bokeh.core.validation.check import check_integrity
+from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from bokeh.document import Document
 from panel.util import edit_readonly
 
@@ -35,6 +37,15 @@ def test_the_page_opens_already_solved(store, summary):
     expected = summary("booted-block-low-mass").solution.insertion_gain
     np.testing.assert_array_equal(source.data["level"], expected)
     assert document.get_model_by_name("force").data["time"].size > 1000
+
+
+def test_a_page_has_none_of_the_faults_that_bokeh_looks_for(store):
+    document = Document()
+    app.build(store).server_doc(document, location=False)
+    found = check_integrity({each for root in document.roots for each in root.references()})
+    assert found.error == []
+    # places that are filled when they are looked at
+    assert {each.code for each in found.warning} <= {EMPTY_LAYOUT.code}
 
 
 TABS = {
@@ -138,11 +149,12 @@ class FakeStore:
     """Notes what it is asked."""
 
     def __init__(self):
-        self.requested, self.closed = [], False
+        self.requested, self.futures, self.closed = [], [], False
 
     def request(self, key):
         self.requested.append(key)
-        return SimpleNamespace(future=Future())
+        self.futures.append(Future())
+        return SimpleNamespace(future=self.futures[-1])
 
     def close(self):
         self.closed = True
@@ -162,3 +174,21 @@ def test_the_server_begins_with_the_opening_preset(monkeypatch):
     assert {design for design, _ in fake.requested} == set(tig.PRESETS.values())
     app_hooks.on_server_unloaded(None)
     assert fake.closed
+
+
+def test_pages_are_made_ahead_of_the_opening_picture(monkeypatch):
+    fake, served = FakeStore(), []
+    monkeypatch.setattr(app_hooks, "shared_store", lambda: fake)
+    monkeypatch.setattr(app_hooks, "compiled", lambda: None)
+    monkeypatch.setattr(app_hooks.first_page, "prepare", lambda *_: None)
+    monkeypatch.setattr(app_hooks.RESERVE, "serve", lambda *words: served.append(words))
+    monkeypatch.setenv(app_hooks.sessions.AHEAD_VARIABLE, "3")
+
+    async def solve_the_first():
+        app_hooks.on_server_loaded(SimpleNamespace(application_context="ours"))
+        assert served == []
+        fake.futures[0].set_result("the opening picture")
+        await until_at_rest()
+
+    asyncio.run(solve_the_first())
+    assert served == [("ours", app.assemble, app.TITLE, 3)]

@@ -21,6 +21,12 @@ from dashboard.server.serving import SocketHandler
 DASHBOARD = Path(__file__).parents[3] / "dashboard"
 
 
+@pytest.fixture(autouse=True)
+def nobody(monkeypatch):
+    """Count the sessions of each test alone."""
+    monkeypatch.setattr(sessions, "_open", set())
+
+
 @pytest.fixture
 def application():
     made = build_single_handler_application(DASHBOARD)

@@ -8,9 +8,10 @@ from bokeh.core.has_props import HasProps
 from bokeh.core.property.bases import ParameterizedProperty
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.models import ColumnDataSource, LinearAxis, Model, Plot
+from bokeh.settings import settings
 from bokeh.util import callback_manager
 
-from dashboard.server import quick_defaults
+from dashboard.server import bokeh_shortcuts
 
 REPLACED = (
     (HasProps, "_overridden_defaults"),
@@ -28,7 +29,8 @@ def install(monkeypatch):
     """Return what installs the shortcuts; Bokeh's own way is back after the test."""
     for owner, name in REPLACED:
         monkeypatch.setattr(owner, name, owner.__dict__[name])
-    return quick_defaults.install
+    yield bokeh_shortcuts.install
+    settings.perform_document_validation.unset_value()
 
 
 def defaults(kind):

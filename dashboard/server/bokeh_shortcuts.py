@@ -7,7 +7,7 @@ exception. A page opens with 20,000 such questions: a quarter of its processor t
 
 Each message begins with the references to all models of the page, made anew; each value that is converted has
 its property's type put into words first, in case it were refused; and each of Panel's callbacks has its
-signature looked through.
+signature looked through. Each page is searched for faults of its layout, which is what tests are for.
 """
 
 from functools import cached_property, partial
@@ -18,6 +18,7 @@ from bokeh.core.property.bases import ParameterizedProperty
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.core.property.instance import InstanceDefault
 from bokeh.model import Model
+from bokeh.settings import settings
 from bokeh.util import callback_manager
 
 _overridden = {}
@@ -80,5 +81,6 @@ def install():
     ParameterizedProperty._may_have_unstable_default = _may_have_unstable_default
     ParameterizedProperty.__str__ = _words
     callback_manager._check_callback = _check_callback
+    settings.perform_document_validation = False
     Model.ref = cached_property(_refer)
     Model.ref.__set_name__(Model, "ref")

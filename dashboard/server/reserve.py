@@ -1,0 +1,169 @@
+"""Pages that are ready before anybody asks for them.
+
+Most of what a page costs the server does not depend on who asks: parts, figures, models. It is done ahead,
+while nobody works and no page opens, a step at a time. Whoever comes is given a page that is ready, which
+then follows the link; only where none is left, it is made while they wait.
+"""
+
+import asyncio
+import logging
+import weakref
+from collections import deque
+from collections.abc import Callable, Mapping
+from contextvars import ContextVar
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+from bokeh.document import Document
+from bokeh.server import contexts
+from panel.io.document import init_doc
+from panel.io.state import set_curdoc
+
+from dashboard.compute.document import gathering
+from dashboard.compute.pacing import BREATH, PACE
+from dashboard.server import first_page, sessions
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class _Ready:
+    """A page that is ready, and what it needs until it is taken."""
+
+    document: Document
+    context: contexts.BokehSessionContext
+    follow: Callable[[Mapping[str, list[bytes]]], None]
+
+
+class Reserve:
+    """A few pages that are ready, and made up for when one is taken.
+
+    Parameters
+    ----------
+    pace : dashboard.compute.pacing.Pace
+        Whether anybody works.
+    """
+
+    def __init__(self, pace):
+        self._pace = pace
+        self._make, self._context, self._title, self._size = None, None, "", 0
+        self._ready, self._taken = deque(), weakref.WeakKeyDictionary()
+        self._task = None
+
+    def serve(self, application_context, make, title, size):
+        """Have the sessions of an application begin with pages that are ready.
+
+        Parameters
+        ----------
+        application_context : bokeh.server.contexts.ApplicationContext
+            The application.
+        make : callable
+            Takes the arguments of a link, and returns a page and what has it follow those of another.
+        title : str
+            Title of the page.
+        size : int
+            Pages that are ready.
+        """
+        self._make, self._context, self._title, self._size = make, application_context, title, size
+        plain = application_context.create_session_if_needed
+
+        async def create_session_if_needed(*args, **kwargs):
+            token = _offered.set(self)
+            try:
+                return await plain(*args, **kwargs)
+            finally:
+                _offered.reset(token)
+
+        application_context.create_session_if_needed = create_session_if_needed
+        contexts.Document = _document
+        self._fill()
+
+    def take(self):
+        """Return a document whose page is ready, or an empty one."""
+        if not self._ready or sessions.is_full():
+            return Document()
+        ready = self._ready.popleft()
+        self._taken[ready.document] = ready
+        self._fill()
+        return ready.document
+
+    def open(self, document, arguments):
+        """Have the page in a document that was ready follow a link.
+
+        Parameters
+        ----------
+        document : bokeh.document.Document or None
+            A session's document, with its session; None without one.
+        arguments : mapping of str to list of bytes
+            The query's arguments.
+
+        Returns
+        -------
+        bool
+            Whether there was such a page.
+        """
+        ready = None if document is None else self._taken.pop(document, None)
+        if ready is None:
+            return False
+        init_doc(document)
+        ready.follow(arguments)
+        return True
+
+    def _fill(self):
+        if self._task is None or self._task.done():
+            self._task = asyncio.get_running_loop().create_task(self._make_pages())
+
+    async def _make_pages(self):
+        while len(self._ready) < self._size:
+            try:
+                self._ready.append(await self._make_page())
+            except Exception:
+                # whoever comes next has one made as ever, and is told what goes wrong
+                log.exception("A page could not be made ahead")
+                return
+
+    async def _make_page(self):
+        document, context = self._blank()
+        with gathering(document) as steps:
+            with await self._turn(document):
+                first_page.use_own_files(document)
+                page, follow = self._make({})
+            with await self._turn(document):
+                page.server_doc(document, title=self._title, location=False)
+            left = True
+            while left:
+                with await self._turn(document):
+                    left = next(steps, steps) is not steps
+        return _Ready(document, context, follow)
+
+    def _blank(self):
+        """Return an empty document, and the context that stands in for that of its session.
+
+        Pages without a session hold their files, those of a session name their addresses.
+        """
+        document = Document()
+        context = contexts.BokehSessionContext("ahead", self._context.server_context, document)
+        context._request = SimpleNamespace(arguments={}, cookies={}, headers={})
+        document._session_context = weakref.ref(context)
+        return document, context
+
+    async def _turn(self, document):
+        """Wait until nobody works, and return a context in which a document is the current one."""
+        # whoever has just sent something is heard first
+        await asyncio.sleep(BREATH)
+        await self._pace.idle()
+        return set_curdoc(document)
+
+
+_offered = ContextVar("_offered", default=None)
+"""The reserve from which a session that begins may take its page."""
+
+
+def _document():
+    """Return the document of a session that begins."""
+    reserve = _offered.get()
+    return Document() if reserve is None else reserve.take()
+
+
+RESERVE = Reserve(PACE)
+"""That of this process."""
