@@ -170,7 +170,7 @@ class Runner(param.Parameterized):
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
         is_busy = self._pace.is_busy or self._live_store.is_crowded()
-        taken = await self._draw_exact(design, document) if is_busy else None
+        taken = self._draw_exact(design, document) if is_busy else None
         if taken is None:
             taken = await self._draw_live(design, document)
         drawing = await self._until_drawn(document)
@@ -190,7 +190,7 @@ class Runner(param.Parameterized):
             # what live fidelity refuses or gives up, the paper's run answers or explains, after a long while
             # where it is that of more than the simplified model
             if design != design.simplified:
-                await self._draw_exact(design, document)
+                self._draw_exact(design, document)
         finally:
             _abandon(live)
         return taken
@@ -206,11 +206,11 @@ class Runner(param.Parameterized):
         await self._latest.done_or_news(drawn, PATIENCE)
         return time.monotonic() - began
 
-    async def _draw_exact(self, design, document):
+    def _draw_exact(self, design, document):
         """Draw the exact curve of a design and return how long that took [s]; None if it has none."""
         began = time.monotonic()
         with contextlib.suppress(tig.DesignError):
-            summary, from_cache = await self._obtain(design, AT_ONCE, document)
+            summary, from_cache = self._live_store.at_once(key_of(design, AT_ONCE))
             self._publish(document, **self._success(design, summary, from_cache))
             return time.monotonic() - began
         return None
@@ -227,13 +227,11 @@ class Runner(param.Parameterized):
         await asyncio.wait({live}, timeout=0 if self._live_is_slow else SOON)
         taken = time.monotonic() - began
         if not live.done():
-            summary, from_cache = await self._obtain(design, AT_ONCE, document)
+            self._draw_exact(design, document)
             taken = time.monotonic() - began
-            if not live.done() or live.exception() is not None:
-                self._publish(document, **self._success(design, summary, from_cache))
-                await self._latest.done_or_news(live, PATIENCE)
-                if not live.done() and self._latest.pending:
-                    raise _SupersededError
+            await self._latest.done_or_news(live, PATIENCE)
+            if not live.done() and self._latest.pending:
+                raise _SupersededError
         self._live_is_slow = time.monotonic() - began > SOON
         return taken
 
@@ -258,7 +256,7 @@ class Runner(param.Parameterized):
 
     async def _obtain(self, design, fidelity, document):
         store = self._store if fidelity == AT_REST else self._live_store
-        job = store.request(key_of(design, fidelity), owner=self, urgent=fidelity == AT_ONCE)
+        job = store.request(key_of(design, fidelity), owner=self)
         try:
             await self._wait(job, design, document)
             return job.future.result(), job.from_cache

@@ -86,6 +86,31 @@ def test_the_value_asked_for_longest_ago_goes_first(make_store, gate):
     assert store.kept("c") is not None
 
 
+def test_what_is_wanted_at_once_is_solved_by_who_asks_and_kept(make_store, gate):
+    store = make_store(gate.solve, capacity=1, workers=1)
+    store.request("long")
+    gate.begun.acquire(timeout=WAIT)
+    threads = []
+    store._solve = lambda *words: threads.append(threading.current_thread()) or f"{words[0]}, solved"
+    # the only worker is busy
+    assert store.at_once("b") == ("b, solved", False)
+    assert store.at_once("b") == ("b, solved", True)
+    assert threads == [threading.current_thread()]
+    assert store.request("b").from_cache
+    store.at_once("c")
+    assert store.kept("b") is None
+
+
+def test_what_cannot_be_solved_at_once_raises_and_is_not_kept(make_store):
+    def broken(*_):
+        raise ValueError("no such track")
+
+    store = make_store(broken)
+    for _ in range(2):
+        with pytest.raises(ValueError, match="no such track"):
+            store.at_once("a")
+
+
 def test_an_exception_reaches_all_who_wait_and_is_not_kept(make_store):
     fail = [True]
     entered = threading.Event()
