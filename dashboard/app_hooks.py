@@ -6,6 +6,7 @@ No session compiles anything; at a first start the page is there meanwhile, and 
 import gc
 from functools import partial
 
+from panel.config import config
 from tornado.ioloop import IOLoop
 
 import trackig_core as tig
@@ -36,6 +37,9 @@ def on_server_loaded(server_context):
     first_page.prepare(server_context.application_context, TITLE)
     # what stays so far: looking through it for garbage would stop every session for 0.1 s now and then
     gc.freeze()
+    if config.autoreload:
+        # pages that are ready would be those of the code before it was edited
+        return
     # a page that is made of the opening picture asks for no other; the first prepares classes and scripts
     loop = IOLoop.current()
     serve = partial(RESERVE.serve, server_context.application_context, assemble, TITLE, sessions.ahead())

@@ -221,12 +221,13 @@ def test_sliders_that_know_the_answer(open_dashboard, tell):  # noqa: F811
     handle.evaluate(WATCH_STRETCHES)
     waits = []
     for _ in range(20):
-        page.evaluate("() => { window.in_place = 0 }")
         drag(page, SLIDER, 10, pixels=2, pause=30)
-        page.wait_for_function("() => window.in_place > window.last_move")
+        # stretches of the moves before may come after the last one; those that come last are its own
+        page.wait_for_timeout(1500)
         waits.append(page.evaluate("() => window.in_place - window.last_move") / 1000)
         page.mouse.up()
         page.get_by_role("button", name="Undo (Ctrl+Z)").click()
         page.wait_for_timeout(1500)
+    assert min(waits) > 0
     tell(float(np.median(waits)), "last move to stretches on all sliders, median")
     tell(min(waits), "last move to stretches on all sliders, least")
