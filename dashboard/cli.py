@@ -47,7 +47,7 @@ STANDARD_OUTPUT = Path("-")
 PAGES = (".html", ".htm")
 """How the names of reports end."""
 
-LIMITS = ("insertion-gain", "insertion-loss")
+LIMITS = GAINS, LOSSES = ("insertion-gain", "insertion-loss")
 """What the limits of a specification may be."""
 
 USER_ERRORS = (
@@ -133,7 +133,9 @@ def _parser():
     _add_solve(commands)
     _add_check(commands)
     _add_report(commands)
-    cli_decide.add_commands(commands, cli_decide.Shell(_add, _open_study, _refuse_to_lose, _write))
+    cli_decide.add_commands(
+        commands, cli_decide.Shell(_add, _open_study, _add_limits, _judging, _refuse_to_lose, _write)
+    )
     _add_serve(commands)
     return parser
 
@@ -229,11 +231,7 @@ def _add_check(commands):
         metavar="FILE.csv",
         help="check against this table of bands [Hz] and greatest insertion gain [dB] instead",
     )
-    command.add_argument(
-        "--limits",
-        choices=LIMITS,
-        help="what the limits are; the sign of insertion losses is turned",
-    )
+    _add_limits(command)
     command.set_defaults(cut_off=CUT_OFF)
     _add_fidelity(command)
 
@@ -266,6 +264,7 @@ def _add_report(commands):
         choices=tig.GROUNDS,
         help=f"generic ground of the same; {left_out.OPENING_GROUND} unless given",
     )
+    _add_limits(command)
     _add_fidelity(command)
     _add_force(command)
 
@@ -278,6 +277,15 @@ def _add_serve(commands):
 def _add_fidelity(command):
     command.add_argument(
         "--fidelity", choices=FIDELITIES, default=FIDELITIES[0], help=f"{FIDELITIES[0]} unless given"
+    )
+
+
+def _add_limits(command):
+    command.add_argument(
+        "--limits",
+        choices=LIMITS,
+        help="what the limits of the specification are, the answer if it is asked; the sign of insertion "
+        "losses is turned",
     )
 
 
@@ -435,28 +443,30 @@ def _open_specification(path, limits):
         raise CommandError(f"{path}: {error}") from None
     for note in reading.notes:
         sys.stderr.write(f"trackig: {path}: {note}\n")
-    if reading.says_loss and limits is None:
+    return _judging(reading.table, limits, path)
+
+
+def _judging(specification, limits, path):
+    """Return a specification where it is known what its limits are; an open question is an error."""
+    if limits is not None:
+        return specification.turned() if limits == LOSSES else specification.kept()
+    if specification.question:
         raise CommandError(
-            f"{path}: the limits are called insertion losses; give --limits insertion-loss to turn their "
-            "sign, or --limits insertion-gain to take them as they are"
+            f"{path}: no verdict: {specification.question} Give --limits {LOSSES} to turn their sign, or "
+            f"--limits {GAINS} to take them as they are"
         )
-    return reading.table
+    return specification
 
 
 def _check(options):
     opened = _open_study(options.study)
     if options.specification is not None:
         specification = _open_specification(options.specification, options.limits)
-        opened = dataclasses.replace(opened, specification=specification)
-    if opened.specification is None:
+    elif opened.specification is not None:
+        specification = _judging(opened.specification, options.limits, options.study)
+    else:
         raise CommandError(
             f"{options.study}: the study has no specification; add one, or give --specification FILE.csv"
-        )
-    if options.limits == "insertion-loss":
-        opened = dataclasses.replace(opened, specification=opened.specification.turned())
-    elif options.limits is None and opened.specification.is_probably_loss:
-        sys.stderr.write(
-            "trackig: no limit is below 0 dB; if they are insertion losses, give --limits insertion-loss\n"
         )
     complies = True
     for pinned in shown_designs(opened):
@@ -467,8 +477,8 @@ def _check(options):
             reference=reference_for(pinned.design, view.reference),
             summation=view.summation,
         )
-        deflection = tig.analysis.limited_deflection(opened.specification, pinned.design)
-        verdict = opened.specification.check(solution.insertion_gain, deflection)
+        deflection = tig.analysis.limited_deflection(specification, pinned.design)
+        verdict = specification.check(solution.insertion_gain, deflection)
         statics = opened.load.response(pinned.design)
         sys.stdout.write(f"{pinned.name}: {verdict}\n    {_statics_text(statics)}\n")
         complies &= verdict.complies
@@ -488,6 +498,9 @@ def _report(options):
         raise CommandError("--vehicle and --ground are those of the ladder: give --ladder too")
     opened = _open_study(options.study)
     _refuse_to_lose(options.output, options.force, options.study)
+    if opened.specification is not None:
+        limits = _judging(opened.specification, options.limits, options.study)
+        opened = dataclasses.replace(opened, specification=limits)
     ladder = _ladder(opened, options) if options.ladder else None
     summaries = {
         design: _summary(design, options.fidelity)

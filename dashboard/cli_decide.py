@@ -25,6 +25,7 @@ from pathlib import Path
 import trackig_core as tig
 from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
+from trackig_core.levels.specification import not_judged_text
 from trackig_core.solver import FIDELITIES
 from trackig_core.study.catalogue import KINDS
 from trackig_core.track.fields import SEARCHED_RANGES
@@ -56,6 +57,10 @@ class Shell:
         Adds a command: (commands, name, run, help=...).
     open_study : callable
         From a path to a study.
+    add_limits : callable
+        Adds the option that says what the limits of a specification are.
+    judging : callable
+        Returns a specification of which that is known, or refuses: (specification, limits, path).
     refuse_to_lose : callable
         Refuses to write over a file: (path, force, file that is read).
     write : callable
@@ -64,6 +69,8 @@ class Shell:
 
     add: Callable
     open_study: Callable
+    add_limits: Callable
+    judging: Callable
     refuse_to_lose: Callable
     write: Callable
 
@@ -94,6 +101,7 @@ def _command(commands, shell, name, kind_of=None, **words):
         metavar="M",
         help="greatest rail deflection [m], in place of the specification's own",
     )
+    shell.add_limits(command)
     command.add_argument(
         "--scheduler", metavar="ADDRESS", help="solve on a Dask cluster, such as tcp://10.0.0.5:8786"
     )
@@ -328,6 +336,9 @@ def _answer(shell, kind, settings, options):
         return _job(study, kind, settings, options)
     if options.max_deflection is not None:
         settings["max_deflection"] = options.max_deflection
+    if study.specification is not None:
+        judging = shell.judging(study.specification, options.limits, options.study)
+        study = dataclasses.replace(study, specification=judging)
     design = _design(study, options.design)
     question = Question(
         kind=kind,
@@ -342,7 +353,7 @@ def _answer(shell, kind, settings, options):
         result = question.ask(**how)
     table, answer = result.to_dataframe(), Answer.of(question, result)
     if STANDARD_OUTPUT not in (options.csv, options.json):
-        sys.stdout.write(_text(result, table))
+        sys.stdout.write(_text(result, table, study.specification))
     if options.csv is not None:
         name = current_name(study) if options.design is None else options.design
         heading = Heading.of_question(study, question, name, datetime.date.today())
@@ -406,9 +417,11 @@ def _anything_complies(result):
     return not isinstance(result, decide.FoundDesigns) or result.front.size > 0
 
 
-def _text(result, table):
-    """Return what is printed: the rows that fit on a screen, and the sentence."""
-    return f"{_rows(result, table)}\n\n{result}\n"
+def _text(result, table, specification):
+    """Return what is printed: the rows that fit on a screen, the sentence, and limits that are not judged."""
+    rest = "" if specification is None else not_judged_text(specification.not_judged)
+    sentences = (str(result), rest and f"Limits of the specification: {rest}.")
+    return "\n".join([_rows(result, table), "", *filter(None, sentences)]) + "\n"
 
 
 def _rows(result, table):

@@ -383,6 +383,7 @@ li svg {{ align-self: center; }}
 .part {{ white-space: nowrap; }}
 .complies {{ color: {COMPLIES_TEXT}; font-weight: 700; }}
 .fails {{ color: {FAILS_TEXT}; font-weight: 700; }}
+.open {{ font-weight: 700; overflow-wrap: anywhere; }}
 """
 
 QUANTITIES_CSS = f"""

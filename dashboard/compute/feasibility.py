@@ -43,7 +43,7 @@ class Feasibility(Inquiry):
 
     def ask(self, *_):
         """Ask for the design as it stands; without a specification there is nothing to ask."""
-        design, specification = self._inputs.to_design(), self._assessment.specification
+        design, specification = self._inputs.to_design(), self._assessment.in_force
         if specification is not None and specification.rail_deflection_limit is None:
             design = design.without_statics
         question = question_of("range", {}, self._assessment, self._definition, design=design)

@@ -149,7 +149,8 @@ def question_of(kind, settings, assessment, definition, design=None):
     Returns
     -------
     trackig_core.decide.Question or None
-        The question; None as long as it cannot be asked, for want of a specification or of a first solution.
+        The question; None as long as it cannot be asked, for want of a specification in force or of a first
+        solution.
     """
     design = assessment.current.design if design is None else design
     with contextlib.suppress(ValueError):
@@ -157,7 +158,7 @@ def question_of(kind, settings, assessment, definition, design=None):
             kind,
             design,
             settings,
-            specification=assessment.specification,
+            specification=assessment.in_force,
             source=assessment.source,
             reference=definition.reference_of(design),
             summation=definition.summation,

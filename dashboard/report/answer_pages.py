@@ -17,6 +17,7 @@ from dashboard.report import plots
 from dashboard.session.answers import FIGURE_WORDS, TITLES, field_label, settings_texts, with_unit
 from dashboard.session.special import curve_text
 from trackig_core.decide.questions import digest
+from trackig_core.levels.specification import not_judged_text
 from trackig_core.track.design import measured_curves
 
 MOST_ROWS = 24
@@ -109,7 +110,8 @@ def question_lines(answer):
     numbers += [f"{field_label(name)} {curve_text(curve)}" for name, curve in measured_curves(design).items()]
     lines = [f"Asked of: {', '.join(numbers)}, rail {design.rail.name}."]
     if question.specification is not None:
-        lines.append(f"Held against: {question.specification.name}.")
+        rest = not_judged_text(question.specification.not_judged)
+        lines.append(f"Held against: {'; '.join(filter(None, (question.specification.name, rest)))}.")
     lines.append(f"Insertion gain: {formats.definition_text(question.summation, question.reference)}.")
     lines += [f"{text[0].upper()}{text[1:]}." for text in settings_texts(question)]
     return TITLES[question.kind], lines

@@ -55,7 +55,8 @@ def data_sheet(result, heading, specification=None, source=None, measured=()):
         An HTML file that prints on one page.
     """
     natural, level = result.summary.solution.natural_frequencies, result.level
-    inputs, bands = _inputs(result.design), _bands(result, specification, measured)
+    limits = None if specification is None else specification.in_force
+    inputs, bands = _inputs(result.design), _bands(result, limits, measured)
     tables = _broken(bands)
     reference = None if source is None else source.with_track(np.zeros(tig.BAND_CENTRES.size))
     return TEMPLATES.get_template("data_sheet.html").render(
@@ -63,10 +64,11 @@ def data_sheet(result, heading, specification=None, source=None, measured=()):
         heading=heading,
         result=result,
         specification=specification,
-        plot=plots.gain_svg([result], specification, _plot_height(inputs, tables), measured),
+        limits=limits,
+        plot=plots.gain_svg([result], limits, _plot_height(inputs, tables), measured),
         measured=measured,
         beyond_measured=formats.extrapolated_text(heading.design),
-        limited=_is_limited(result, specification),
+        limited=_is_limited(result, limits),
         tables=tables,
         longest_cell=max(len(text) for _, cells in bands for text, _ in cells),
         inputs=inputs,

@@ -78,12 +78,14 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
         raise ValueError("there is no solution of any design to report: solve one first")
     base = every[0 if study.view.base is None else 1 + study.view.base]
     base = base if base.summary is not None else results[0]
+    limits = in_force(study)
     return TEMPLATES.get_template("report.html").render(
         study=study,
         date=f"{date.day} {date:%B %Y}",
         version=version,
         results=results,
         base=base,
+        limits=limits,
         left_out=[each.name for each in shown_designs(study) if each.design not in summaries],
         hidden=[each.name for each in study.pinned if not each.shown],
         kind=formats.definition_text(study.view.summation, study.view.reference),
@@ -95,7 +97,7 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
             if reference_for(each.design, study.view.reference) != study.view.reference
         ],
         beyond_measured=formats.extrapolated_text(results[0].name),
-        gain_plot=plots.gain_svg(results, study.specification, measured=study.measured),
+        gain_plot=plots.gain_svg(results, limits, measured=study.measured),
         difference_plot=plots.difference_svg(results, base) if len(results) > 1 else None,
         force_plot=plots.force_svg(results),
         beyond=_beyond(results),
@@ -106,8 +108,8 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
         wheels=formats.wheels_text(study.load),
         statics=_statics(results),
         bounds=_bounds(results),
-        bands=_bands(results, study.specification, study.measured),
-        margins=_margins(results, study.specification),
+        bands=_bands(results, limits, study.measured),
+        margins=_margins(results, limits),
         sources=_sources(results, base, study.source),
         fidelities=formats.fidelities_text(each.summary.solution.fidelity for each in results),
         notes=[(each.name, each.summary.solution.notes) for each in results if each.summary.solution.notes],
@@ -116,6 +118,11 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
         file=study.to_toml(),
         theme=theme,
     )
+
+
+def in_force(study):
+    """Return the specification by which designs are judged; None without one, or while it asks something."""
+    return None if study.specification is None else study.specification.in_force
 
 
 def _ladder(left_out, name):
@@ -163,7 +170,7 @@ def _result(study, record, summary):
         return DesignResult(record)
     reference = reference_for(record.design, study.view.reference)
     gain = summary.solution.gain_for(reference, study.view.summation)
-    limits = study.specification
+    limits = in_force(study)
     deflection = tig.analysis.limited_deflection(limits, record.design)
     verdict = None if limits is None else limits.check(gain.levels, deflection)
     level = None if study.source is None else study.source.with_track(gain.levels)

@@ -65,6 +65,11 @@ class Assessment(param.Parameterized):
         self._assess()
 
     @property
+    def in_force(self):
+        """The specification by which designs are judged; None without one, or while it asks something."""
+        return None if self.specification is None else self.specification.in_force
+
+    @property
     def current(self):
         """The result of the current design; its summary is None as long as it was never solved."""
         return self.results[0]
@@ -82,7 +87,7 @@ class Assessment(param.Parameterized):
     def _assess(self, *_):
         definition, load = self._definition, self._inputs.to_load()
         chosen = (definition.reference, definition.summation, definition.bands)
-        criteria = (*chosen, self.specification, self.source, load)
+        criteria = (*chosen, self.in_force, self.source, load)
         known = {each.key: each for each in self.results} if criteria == self._criteria else {}
         known_preset = self.preset if criteria == self._criteria else None
         self._criteria, self._load = criteria, load
@@ -115,15 +120,13 @@ class Assessment(param.Parameterized):
         if summary is None:
             return DesignResult(record)
         gain = self._definition.gain(summary.solution)
-        deflection = tig.analysis.limited_deflection(self.specification, record.design)
+        deflection = tig.analysis.limited_deflection(self.in_force, record.design)
         return DesignResult(
             pinned=record,
             summary=summary,
             gain=gain,
             gain_shown=self._definition.gain_shown(summary.solution),
-            verdict=(
-                None if self.specification is None else self.specification.check(gain.levels, deflection)
-            ),
+            verdict=None if self.in_force is None else self.in_force.check(gain.levels, deflection),
             level=None if self.source is None else self.source.with_track(gain.levels),
             statics=self._load.response(record.design),
         )

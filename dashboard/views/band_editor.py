@@ -4,7 +4,6 @@ What is given is taken as a whole, and what was set aside is said; or not at all
 where it is at fault, and what was there stays.
 """
 
-import dataclasses
 import html
 from pathlib import Path
 from typing import ClassVar
@@ -84,6 +83,8 @@ class BandEditor(Viewer):
         Caption of the table.
     """
 
+    refused = param.String(default="", doc="Why what was given last was not taken; else empty.")
+
     def __init__(self, assessment, name, exchange, given, words):
         super().__init__()
         self._assessment, self._name, self._exchange = assessment, name, exchange
@@ -125,7 +126,7 @@ class BandEditor(Viewer):
         except tig.BandTableError as error:
             self._tell(f"Not taken: {error}.", pane=message)
             return False
-        self._keep(self._with_bands(reading.table.points, reading.table.name))
+        self._keep(reading.table if self.table is None else reading.table.beside(self.table))
         notes = [*reading.notes, *self.on_read(reading)]
         if notes:
             self._tell(f"Taken; {'; '.join(notes)}.", "status", message)
@@ -167,15 +168,10 @@ class BandEditor(Viewer):
         """Set levels by frequency, None to take one out."""
         points = {**dict(self.table.points if self.table is not None else ()), **levels}
         points = [(frequency, level) for frequency, level in points.items() if level is not None]
-        name = self.table.name if self.table is not None else self._kind.name
-        says_more = self.table is not None and self.table.may_be_empty
-        self._keep(self._with_bands(points, name) if points or says_more else None)
-
-    def _with_bands(self, points, name):
-        """Return the table with other bands; what else it says stays, such as a limit of deflection."""
         if self.table is None:
-            return self._kind(points, name)
-        return dataclasses.replace(self.table, points=points, name=name)
+            self._keep(self._kind.given(points) if points else None)
+        else:
+            self._keep(self.table.with_points(points) if points or self.table.may_be_empty else None)
 
     def _keep(self, table):
         self._tell("")
@@ -184,6 +180,7 @@ class BandEditor(Viewer):
         self.grid.show_again()
 
     def _tell(self, words, role="alert", pane=None):
+        self.refused = words if role == "alert" else ""
         for each in (self.message, self.answer):
             shown = words if each is (pane or self.message) else ""
             each.object = f'<div role="{role}">{html.escape(shown)}</div>'

@@ -110,7 +110,7 @@ class Explore(Tab):
         self.fidelity.param.update(label=words, variant=variant, visible=True)
 
     def _show_gain(self):
-        specification = self._assessment.specification
+        specification = self._assessment.in_force
         self.insertion_gain.show(
             self._assessment.current,
             self._assessment.shown_pins,

@@ -197,7 +197,7 @@ class SaveAndShare(Tab):
             tuple(results),
             heading,
             assessment.base,
-            assessment.specification,
+            assessment.in_force,
             assessment.measured,
         )
 

@@ -1,5 +1,7 @@
 """The tab in which designs are compared with a specification: limit, level and margin per band."""
 
+import html
+
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
@@ -40,8 +42,8 @@ class SpecificationView(Tab):
             "Greatest insertion gain allowed, and the designs",
         )
         self.editor.on_read = self._note_reading
+        self.editor.param.watch(self._show, "refused")
         self.deflection = DeflectionLimit(assessment)
-        self._says_loss, self._answered = False, False
         turn = pmui.Button(label="Turn the sign", size="small", variant="contained", on_click=self._turn)
         keep = pmui.Button(label="Keep as insertion gain", size="small", variant="text", on_click=self._keep)
         self.question = pmui.Column(
@@ -64,34 +66,27 @@ class SpecificationView(Tab):
     def _show(self, *_):
         if not self.in_sight:
             return
-        self.verdict.object = verdicts_html(self._assessment.results)
+        verdicts = verdicts_html(self._assessment.results, self._assessment.specification)
+        refused = self.editor.refused and f'<p role="status" class="open">{html.escape(REFUSED)}</p>'
+        self.verdict.object = verdicts + refused
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
         self.deflection.show()
 
     def _note_reading(self, reading):
-        """Ask again of a table that was read, and return what to say of it."""
-        self._says_loss, self._answered = reading.says_loss, False
-        self._ask()
-        return (NOTE,) if self.question.visible else ()
+        """Return what to say of a table that was read."""
+        return (NOTE,) if reading.table.question else ()
 
     def _ask(self, *_):
         """Ask what the limits are while they look like insertion losses and nobody has answered."""
         specification = self._assessment.specification
-        is_probable = specification is not None and specification.is_probably_loss
-        if specification is None:
-            self._says_loss = False
-        if not is_probable and not self._says_loss:
-            self._answered = False
-        self.question.visible = (is_probable or self._says_loss) and not self._answered
+        self.question.visible = specification is not None and bool(specification.question)
+        self._show()
 
     def _turn(self, *_):
-        self._says_loss, self._answered = False, True
         self._assessment.specification = self._assessment.specification.turned()
-        self._ask()
 
     def _keep(self, *_):
-        self._says_loss, self._answered = False, True
-        self._ask()
+        self._assessment.specification = self._assessment.specification.kept()
 
     def build(self):
         """Return what is put on the page."""
@@ -104,7 +99,10 @@ class SpecificationView(Tab):
         )
 
 
+REFUSED = "What was given last was not taken, see below: it is not judged."
+
 QUESTION = (
+    "Answer this before there is a verdict. "
     "These limits look like an <b>insertion loss</b>, which counts what is taken away: the more, the better. "
     "Insertion gain has the opposite sign: −10 dB asks for more than −5 dB, and limits above 0 dB ask for no "
     "isolation at all."

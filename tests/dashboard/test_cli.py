@@ -402,13 +402,35 @@ def test_a_specification_of_insertion_loss_is_not_taken_for_gain(save, tmp_path,
     output = capsys.readouterr()
     assert output.out == ""
     assert "set aside, outside 5 to 500 Hz: 630 Hz" in output.err
-    assert "give --limits insertion-loss" in output.err
+    assert "Give --limits insertion-loss" in output.err
     assert main([*arguments, "--limits", "insertion-loss"]) == 1
     assert main([*arguments, "--limits", "insertion-gain"]) == 0
+    assert "complies in 1 of 2 limits" in capsys.readouterr().out
     table.write_text("63;10\n")
-    capsys.readouterr()
-    assert main(arguments) == 0
-    assert "if they are insertion losses, give --limits insertion-loss" in capsys.readouterr().err
+    assert main(arguments) == 2
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert "no verdict: no limit is below 0 dB, as if they were insertion losses" in output.err
+    assert "Give --limits insertion-loss to turn their sign, or --limits insertion-gain" in output.err
+    assert main([*arguments, "--limits", "insertion-gain"]) == 0
+
+
+def test_a_study_that_leaves_a_question_open_gets_no_verdict(save, tmp_path, capsys):
+    specification = tig.Specification.given([(63, 10.0)], set_aside=("630 Hz",))
+    study, out = save(specification=specification), tmp_path / "report.html"
+    for command in (["check", study], ["report", study, str(out)], ["range", study], ["sensitivity", study]):
+        assert main(command) == 2
+        output = capsys.readouterr()
+        assert output.out == ""
+        assert f"{study}: no verdict: no limit is below 0 dB" in output.err
+    assert not out.exists()
+    assert main(["check", study, "--fidelity", "exact", "--limits", "insertion-gain"]) == 0
+    assert "1 not judged, of no band from 5 to 500 Hz: 630 Hz" in capsys.readouterr().out
+    assert main(["range", study, "--field", "boot_stiffness", "--limits", "insertion-loss"]) in (0, 1)
+    assert "\nLimits of the specification: 1 not judged" in capsys.readouterr().out
+    options = ["--fidelity", "exact", "--limits", "insertion-gain"]
+    assert main(["report", study, str(out), *options]) == 0
+    assert "1 not judged, of no band from 5 to 500 Hz: 630 Hz" in out.read_text(encoding="utf-8")
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")

@@ -96,6 +96,8 @@ class Requirements:
     def _limited(self) -> BoolArray:
         if self.specification is None:
             raise ValueError(_MISSING[MARGIN])
+        if self.specification.question:
+            raise ValueError(self.specification.question)
         return np.isfinite(self.specification.levels)
 
     def levels(self, many: BatchSolution) -> RealArray:

@@ -13,7 +13,7 @@ import math
 import numbers
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, ClassVar, Generic, Self, TypeVar
 
@@ -46,6 +46,10 @@ _LOSS = re.compile(
 """What a header says of insertion loss, which is insertion gain with the sign turned."""
 
 
+MOST_SET_ASIDE, LONGEST_SET_ASIDE = 60, 40
+"""Rows of no band that a table may have, and characters of what each is called [-]."""
+
+
 class BandTableError(TableError):
     """A table of levels per band cannot be used; ``line`` and ``column`` say where it is at fault."""
 
@@ -60,13 +64,10 @@ class Reading(Generic[_Kind]):
         The table.
     notes : tuple of str
         What was set aside or skipped, for people.
-    says_loss : bool
-        Whether header or signs (``>= 6``) say that the levels count what is lost: insertion loss.
     """
 
     table: _Kind
     notes: tuple[str, ...]
-    says_loss: bool
 
 
 @dataclass(frozen=True)
@@ -194,13 +195,51 @@ class BandTable:
             If the table cannot be used; its ``line`` and ``column`` say where.
         """
         try:
-            points, notes, says_loss = _read(data, cls.quantity)
+            found = _read(data, cls.quantity)
         except BandTableError:
             raise
         except TableError as error:
             raise cls.quantity.error(error.message, error.line, error.column) from None
-        table = cls(points) if name is None else cls(points, name)  # type: ignore[call-arg]  # subclasses name themselves
-        return Reading(table, notes, says_loss)
+        table = cls.given(found.points, name, found.says_loss, found.set_aside)
+        return Reading(table, found.notes)
+
+    @classmethod
+    def given(
+        cls,
+        points: Iterable[Iterable[Any]],
+        name: str | None = None,
+        says_loss: bool = False,
+        set_aside: Sequence[str] = (),
+    ) -> Self:
+        """Return the table that somebody typed, pasted or saved, who may not have said all that it means.
+
+        Parameters
+        ----------
+        points : iterable of (float, float)
+            Rows of mid-band frequency [Hz] and level [dB].
+        name : str, optional
+            Name of the table.
+        says_loss : bool
+            Whether header or signs (``>= 6``) say that the levels count what is lost: insertion loss.
+        set_aside : sequence of str
+            What rows with a level are called that are of no band of the table, such as ``"630 Hz"``.
+
+        Returns
+        -------
+        BandTable
+            The table; of these two, a specification takes note.
+        """
+        del says_loss, set_aside
+        return cls(points) if name is None else cls(points, name)  # type: ignore[arg-type,call-arg]
+
+    def with_points(self, points: Iterable[Iterable[Any]]) -> Self:
+        """Return the table with other rows, as they are typed one after the other."""
+        return replace(self, points=points)  # type: ignore[arg-type]  # rows of any kind are checked
+
+    def beside(self, other: Self) -> Self:
+        """Return this table in the place of another, with what that says besides its levels."""
+        del other
+        return self
 
     def to_csv(self) -> str:
         """Return the table as a CSV file (str), which :meth:`from_csv` reads back exactly."""
@@ -313,25 +352,38 @@ def _is_band_of_any_range(frequency: float) -> bool:
     return _band(frequency / decade) is not None
 
 
-def _read(
-    data: str | bytes, quantity: Quantity
-) -> tuple[tuple[tuple[float, float], ...], tuple[str, ...], bool]:
-    """Return points, notes, and whether the levels are said to count what is lost."""
+@dataclass(frozen=True)
+class _Found:
+    """What was read: rows, notes, whether levels are said to count what is lost, rows that are of no band."""
+
+    points: tuple[tuple[float, float], ...]
+    notes: tuple[str, ...]
+    says_loss: bool
+    set_aside: tuple[str, ...]
+
+
+def _read(data: str | bytes, quantity: Quantity) -> _Found:
+    """Return what a table holds."""
     # no level has thousands of decibels, so that a comma is decimal unless the table shows otherwise
     table = read_table(data, is_axis=_is_band_of_any_range, undecided=",")
     frequencies = _frequencies(table, quantity)
     levels = _levels(table, frequencies, quantity)
     notes = [f"{each.words} is not read" for each in table.columns if each not in (frequencies, levels)]
     rows, outside, blank = [], [], []
+    set_aside: dict[str, None] = {}
     for cell, given in zip(frequencies.cells, levels.cells, strict=True):
         if cell.is_blank and given.value is None:
             continue
         if cell.is_words:
             notes.append(f"line {cell.line} is not read: {brief(cell.text)} is no frequency")
+            if given.value is not None:
+                set_aside[brief(cell.text, LONGEST_SET_ASIDE)] = None
             continue
         frequency = _frequency(frequencies, cell, quantity)
         if _band(frequency) is None:
             outside.append(f"{frequency:g}")
+            if not given.is_blank:
+                set_aside[f"{frequency:g} Hz"] = None
         elif given.is_blank:
             blank.append(BAND_LABELS[_band(frequency) or 0])
         else:
@@ -342,11 +394,12 @@ def _read(
         notes.append(f"set aside, outside {bands}: {', '.join(outside)} Hz")
     if blank:
         notes.append(f"no value at {', '.join(blank)} Hz")
-    says_loss = _says_loss(levels, quantity)
+    if len(set_aside) > MOST_SET_ASIDE:
+        raise quantity.error(f"{len(set_aside)} rows are of no band: give at most {MOST_SET_ASIDE}")
     points = _checked(rows, quantity, "line")
     if _are_octaves(points):
         notes.append("only octave bands are given: each is taken as its one-third-octave band")
-    return points, (*table.notes, *notes), says_loss
+    return _Found(points, (*table.notes, *notes), _says_loss(levels, quantity), tuple(set_aside))
 
 
 def _frequencies(table: Table, quantity: Quantity) -> Column:

@@ -24,7 +24,7 @@ from trackig_core.decide.questions import Answer, Question
 from trackig_core.levels.band_tables import BandTable, BandTableError
 from trackig_core.levels.measured_gain import MeasuredGain
 from trackig_core.levels.source import SourceSpectrum
-from trackig_core.levels.specification import Specification
+from trackig_core.levels.specification import UNSTATED, Specification
 from trackig_core.names import brief
 from trackig_core.study.records import PinnedDesign, StaticLoad, StudyError, View
 from trackig_core.track.design import ONE_AXLE, REFERENCE_FREQUENCY, TrackDesign
@@ -275,7 +275,7 @@ def _table(
         return None
     section = study.section(name)
     title = section.take("name", kind.name)
-    limits = _limits(section) if kind is Specification else {}
+    limits = _limits(section) | _meaning(section) if kind is Specification else {}
     # a limit of deflection may stand alone
     points = section.take(key, []) if limits.get("rail_deflection_limit") is not None else section.need(key)
     section.close()
@@ -311,6 +311,14 @@ def _limits(section: _Section) -> dict[str, Any]:
         key = _LIMIT_KEYS["rail_deflection_limit"]
         raise StudyError(f"give {key} too, or remove it", section.under(_LIMIT_KEYS["wheel_load"]))
     return {name: value for name, value in limits.items() if value is not None}
+
+
+def _meaning(section: _Section) -> dict[str, Any]:
+    """Return what a specification says of its limits, as arguments of it; files of old say nothing."""
+    not_judged = section.take("not_judged", [])
+    if not isinstance(not_judged, list):
+        raise StudyError(f"{brief(not_judged)}: give a list of texts", section.under("not_judged"))
+    return {"limits": section.take("limits", UNSTATED), "not_judged": tuple(not_judged)}
 
 
 def _answers(study: _Section) -> list[Answer]:
@@ -563,10 +571,20 @@ def _written_table(levels: BandTable, key: str) -> Table:
     table.add("name", levels.name)
     if levels.points:
         _add_rows(table, key, levels.points, _LEVEL_ROWS)
-    if isinstance(levels, Specification) and levels.rail_deflection_limit is not None:
-        for name, limit in _LIMIT_KEYS.items():
-            table.add(limit, _number(getattr(levels, name)))
+    if isinstance(levels, Specification):
+        _write_meaning(table, levels)
     return table
+
+
+def _write_meaning(table: Table, specification: Specification) -> None:
+    """Write what a specification says beside its levels, as far as it says more than a file without it."""
+    if specification.limits != UNSTATED and (specification.is_probably_loss or specification.question):
+        table.add("limits", specification.limits)
+    if specification.not_judged:
+        table.add("not_judged", _list(specification.not_judged))
+    if specification.rail_deflection_limit is not None:
+        for name, limit in _LIMIT_KEYS.items():
+            table.add(limit, _number(getattr(specification, name)))
 
 
 def _add_rows(table: Table, key: str, points: Iterable[Iterable[float]], comment: str) -> None:

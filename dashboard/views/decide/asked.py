@@ -19,6 +19,7 @@ from dashboard.persistence.exports import answer_csv, file_name
 from dashboard.session.answers import KeepError
 from dashboard.session.heading import Heading
 from dashboard.views.components import bokeh_pane
+from trackig_core.levels.specification import not_judged_text
 
 NO_SPECIFICATION = "Write a specification first, in the tab Specification: designs are compared with it."
 
@@ -79,7 +80,7 @@ class Asked:
             return
         question = question_of(self.kind, settings, self.assessment, self.definition)
         if question is None:
-            self._say(NO_SPECIFICATION)
+            self._say(what_is_missing(self.assessment))
         elif question == self.inquiry.answered:
             self._draw()
         else:
@@ -104,7 +105,11 @@ class Asked:
             self.show(result)
 
     def _say_answer(self, result):
-        self._say(self.words(result), "fine", self.hint)
+        question = self.inquiry.answered
+        specification = None if question is None else question.specification
+        rest = "" if specification is None else not_judged_text(specification.not_judged)
+        hints = (rest and f"Limits of the specification: {rest}.", self.hint)
+        self._say(self.words(result), "fine", " ".join(filter(None, hints)))
 
     def _say(self, words, kind="note", hint=""):
         self.sentence.object = said(words, kind) + (hint and f'<p class="note">{html.escape(hint)}</p>')
@@ -153,6 +158,14 @@ class Asked:
 
     def _save(self, text):
         self._exchange.save(file_name(self.assessment.title, self.kind, "answer.csv"), text)
+
+
+def what_is_missing(assessment):
+    """Return what a user has to do before designs can be held against a specification."""
+    specification = assessment.specification
+    if specification is None or not specification.question:
+        return NO_SPECIFICATION
+    return f"Answer first, in the tab Specification: {specification.question}"
 
 
 def said(words, kind):

@@ -10,7 +10,7 @@ from dashboard.figures.decide import MapFigure
 from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
 from dashboard.session.surroundings import is_simplified
 from dashboard.views.components import bokeh_pane
-from dashboard.views.decide.asked import NO_SPECIFICATION, Asked, said
+from dashboard.views.decide.asked import Asked, said, what_is_missing
 from dashboard.views.decide.inputs import choice, number_options, offer
 from trackig_core.decide.words import how_much, sentence
 
@@ -68,9 +68,9 @@ class Map(Asked):
 
     def settings(self):
         """Return what is asked about the current design."""
-        specification = self.assessment.specification
+        specification = self.assessment.in_force
         if specification is None and self.figure.value == "margin":
-            raise ValueError(NO_SPECIFICATION)
+            raise ValueError(what_is_missing(self.assessment))
         edges = [] if specification is None else ["margin"]
         if specification is not None and specification.rail_deflection_limit is not None:
             edges.append("deflection")
@@ -83,7 +83,7 @@ class Map(Asked):
         """Draw the map."""
         name = next(iter(result.figures))
         words = next(words for words, each in self.figure.options.items() if each == name)
-        specification = self.assessment.specification
+        specification = self.assessment.in_force
         limits = {} if specification is None else {"margin": 0.0}
         if "deflection" in result.figures and specification is not None:
             limits["deflection"] = specification.rail_deflection_limit

@@ -9,7 +9,7 @@ from dashboard.compute.feasibility import where
 from dashboard.fields import ASKED_FIELDS
 from dashboard.session.answers import with_unit
 from dashboard.views.components import caption, panel
-from dashboard.views.decide.asked import NO_SPECIFICATION, Asked, scrolled
+from dashboard.views.decide.asked import Asked, scrolled, what_is_missing
 
 
 class HowFar(Asked):
@@ -26,7 +26,7 @@ class HowFar(Asked):
     def _answered(self):
         super()._answered()
         if self.inquiry.result is None:
-            self._say(self.inquiry.problem or NO_SPECIFICATION)
+            self._say(self.inquiry.problem or what_is_missing(self.assessment))
             self.table.object = ""
 
     def _dim(self, *_):

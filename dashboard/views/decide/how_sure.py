@@ -119,7 +119,7 @@ class HowSure(Asked):
 
     def show(self, result):
         """Draw the percentiles, and say what to tighten."""
-        specification, current = self.assessment.specification, self.assessment.current
+        specification, current = self.assessment.in_force, self.assessment.current
         limit = np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels
         self.percentiles.show(result.percentiles, current.levels, limit)
         question = self.inquiry.answered

@@ -129,7 +129,7 @@ class Search(Asked):
 
     def show(self, found):
         """Draw what was found."""
-        specification = self.assessment.specification
+        specification = self.assessment.in_force
         names = [name for name in ASKED_FIELDS if name in found.free or _varies(found.many, name)]
         fields = [ASKED_FIELDS[name] for name in names]
         ends = {field.name: (field.low * field.factor, field.high * field.factor) for field in fields}

@@ -36,7 +36,7 @@ class WhatScatters(Asked):
         design, figures = self.assessment.current.design, ["deflection", "loaded_track"]
         if self.assessment.source is not None:
             figures.insert(0, "level")
-        if self.assessment.specification is not None:
+        if self.assessment.in_force is not None:
             figures.insert(0, "margin")
         if design.two_stage:
             figures.append("coupled_block")

@@ -1,12 +1,20 @@
 """Specifications and sources as people paste them: what is read, what is set aside, what is refused."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import trackig_core as tig
-from trackig_core.levels.specification import Specification, SpecificationError
+from trackig_core.levels.specification import (
+    CALLED_LOSS,
+    GAIN,
+    UNSTATED,
+    Specification,
+    SpecificationError,
+)
 
 TWO = ((31.5, -6.0), (40.0, -8.5))
 
@@ -45,7 +53,7 @@ def test_what_a_person_would_read_is_read_without_a_word(data):
     reading = Specification.read(data)
     assert reading.table.points == TWO
     assert reading.notes == ()
-    assert not reading.says_loss
+    assert not reading.table.question
 
 
 @pytest.mark.parametrize(
@@ -108,19 +116,80 @@ def test_what_is_ambiguous_is_refused_with_line_and_column(data, line, column, w
 
 
 @pytest.mark.parametrize(
-    ("data", "says_loss", "is_probable"),
+    ("data", "limits", "asks"),
     [
-        ("Hz;Insertion loss, dB\n31.5;6\n40;8", True, True),
-        ("Hz;Einfügungsdämm-Maß\n31.5;6\n40;-1", True, False),
-        ("Hz;dB\n31.5;>= 6\n40;≥ 8", True, True),
-        ("31.5;6\n40;0", False, True),
-        ("31.5;6\n40;-1", False, False),
-        ("Hz;<= dB\n31.5;-6\n40;-8", False, False),
+        ("Hz;Insertion loss, dB\n31.5;6\n40;8", CALLED_LOSS, "called insertion losses"),
+        ("Hz;Einfügungsdämm-Maß\n31.5;6\n40;-1", CALLED_LOSS, "called insertion losses"),
+        ("Hz;dB\n31.5;>= 6\n40;≥ 8", CALLED_LOSS, "called insertion losses"),
+        ("31.5;6\n40;0", UNSTATED, "no limit is below 0 dB"),
+        ("31.5;6\n40;-1", GAIN, ""),
+        ("Hz;<= dB\n31.5;-6\n40;-8", GAIN, ""),
     ],
 )
-def test_an_insertion_loss_is_noticed(data, says_loss, is_probable):
-    reading = Specification.read(data)
-    assert (reading.says_loss, reading.table.is_probably_loss) == (says_loss, is_probable)
+def test_what_may_be_an_insertion_loss_gives_no_verdict_before_that_is_answered(data, limits, asks):
+    table = Specification.read(data).table
+    assert table.limits == limits
+    assert asks in table.question
+    assert bool(asks) == bool(table.question)
+    if not asks:
+        assert table.in_force is table
+        return
+    assert table.in_force is None
+    with pytest.raises(SpecificationError, match=asks):
+        table.check(np.zeros(21))
+    for answered in (table.turned(), table.kept()):
+        assert answered.question == ""
+        assert answered.check(np.full(21, -50.0)).complies
+    with pytest.raises(ValueError, match=asks):
+        tig.decide.feasible_ranges(tig.PRESETS["booted-block-low-mass"], table)
+
+
+def test_limits_of_no_band_of_the_model_are_named_with_the_verdict():
+    table = Specification.read("Hz;dB\n4;-1\n31.5;-6\n40;-8\n630;-9\n800;\nnight;-5").table
+    assert table.not_judged == ("4 Hz", "630 Hz", "'night'")
+    rest = "3 not judged, of no band from 5 to 500 Hz: 4 Hz, 630 Hz, 'night'"
+    assert (
+        str(table.check(np.full(21, -10.0)))
+        == f"complies in 2 of 5 limits, least margin 2.0 dB at 40 Hz; {rest}"
+    )
+    assert str(table.check(np.zeros(21))) == f"fails by 8.0 dB at 40 Hz (2 bands); {rest}"
+    deflection = dataclasses.replace(table, points=(), rail_deflection_limit=2e-3)
+    assert str(deflection.check(np.zeros(21), 1e-3)).startswith("complies in 1 of 4 limits; rail deflection")
+
+
+def test_many_limits_that_are_not_judged_are_counted():
+    rows = "\n".join(f"remark {number};-5" for number in range(20))
+    verdict = Specification.read(f"63;-3\n{rows}").table.check(np.zeros(21))
+    assert "20 not judged" in str(verdict)
+    assert str(verdict).endswith("'remark 7' and 12 more")
+    with pytest.raises(SpecificationError, match="70 rows are of no band: give at most 60"):
+        Specification.read("63;-3\n" + "\n".join(f"remark {number};-5" for number in range(70)))
+
+
+def test_what_was_said_of_limits_holds_while_they_are_typed_over():
+    asked = Specification.given([(63, 10.0)])
+    assert asked.question
+    assert not asked.kept().with_points([(63, 10.0), (80, 12.0)]).question
+    assert asked.with_points([(63, 10.0), (80, 12.0)]).question
+    assert not asked.with_points([(63, 10.0), (80, -1.0)]).question
+    loss = Specification.given([(63, 10.0), (80, -1.0)], says_loss=True)
+    assert loss.with_points([(63, 9.0), (80, -1.0)]).question
+    assert loss.kept().with_points([(63, 9.0), (80, 1.0)]).question
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"limits": "loss"}, "limits = 'loss': give one of 'insertion gain'"),
+        ({"not_judged": ("a\nb",)}, "not_judged = "),
+        ({"not_judged": ("x" * 41,)}, "not_judged = "),
+        ({"not_judged": ("x",) * 61}, "not_judged = "),
+        ({"not_judged": (5,)}, "not_judged = "),
+    ],
+)
+def test_what_is_said_of_limits_is_checked(given, words):
+    with pytest.raises(SpecificationError, match=words):
+        Specification(TWO, **given)
 
 
 def test_a_turned_specification_is_one_of_insertion_gain():

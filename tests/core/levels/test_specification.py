@@ -126,7 +126,8 @@ def test_files_round_trip_exactly(points, name):
     except tig.SpecificationError:
         assert not name or name != name.strip() or not name.isprintable() or len(name) > 60
         return
-    assert tig.Specification.from_csv(specification.to_csv(), name) == specification
+    # a table does not say what its limits are, and is asked about
+    assert tig.Specification.from_csv(specification.to_csv(), name).kept() == specification
 
 
 @pytest.mark.parametrize(

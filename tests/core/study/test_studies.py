@@ -248,6 +248,10 @@ def changed(old, new):
         (changed("[31.5, -3.0]", "[32.9, -3.0]"), "specification.ig_max_dB: row 2, column 1: "),
         (changed("[31.5, -3.0]", "[31.5, nan]"), "specification.ig_max_dB: row 2, column 2: "),
         (changed('name = "Client"', 'name = ""'), "specification: name = ''"),
+        (changed('name = "Client"', 'limits = "loss"'), "specification: limits = 'loss': give one of"),
+        (changed('name = "Client"', "limits = 3"), "specification: limits = 3: give one of"),
+        (changed('name = "Client"', "not_judged = 3"), "specification.not_judged: 3: give a list of texts"),
+        (changed('name = "Client"', "not_judged = [3]"), "specification: not_judged = (3,): give at most 60"),
         (
             changed('name = "Client"', 'name = "Client"\nrail_deflection_max_m = 2.5'),
             "specification: rail_deflection_limit = 2.5: give a number from 1e-06 to 0.1 m",

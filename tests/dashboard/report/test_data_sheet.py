@@ -48,6 +48,22 @@ def test_everything_of_the_design_is_on_it(sheet):
         assert f">{formats.signed_text(level)}</td>" in text
 
 
+def test_a_question_that_is_open_stands_in_the_place_of_the_verdict(session):
+    session.show("booted-block-low-mass")
+    asked = tig.Specification.given([(63, 10.0)], "Client", set_aside=("630 Hz",))
+    session.assessment.specification = asked
+    result = session.assessment.current
+    heading = Heading.of(session.snapshot.study(), [result], DAY)
+    text = data_sheet(result, heading, asked)
+    assert "no verdict yet.</strong> To be answered first: no limit is below 0 dB" in text
+    assert "stepped line" not in text
+    session.assessment.specification = asked.kept()
+    result = session.assessment.current
+    text = data_sheet(result, heading, asked.kept())
+    assert "complies in 1 of 2 limits" in text
+    assert "1 not judged, of no band from 5 to 500 Hz: 630 Hz" in text
+
+
 def test_bands_that_fail_are_marked(sheet):
     result, text = sheet
     assert text.count('<td class="fails">') == 2 * int(result.verdict.fails.sum()) > 0

@@ -139,6 +139,19 @@ def test_bands_margins_and_verdicts_are_those_of_the_core(report, study, summari
         assert f"{'✓' if verdict.complies else '✗'} {verdict}</strong>" in report
 
 
+def test_a_report_without_verdict_says_what_to_answer_first(study, summaries):
+    asked = tig.Specification.given([(63, 10.0)], "Client", set_aside=("630 Hz",))
+    text = html_report(dataclasses.replace(study, specification=asked), summaries, date=DAY, version="9.8.7")
+    assert "<strong>No verdict yet.</strong> To be answered first: no limit is below 0 dB" in text
+    assert "complies" not in text.partition("<pre>")[0].partition("Method and assumptions")[0]
+    assert "Margin per band" not in text
+    text = html_report(
+        dataclasses.replace(study, specification=asked.kept()), summaries, date=DAY, version="9.8.7"
+    )
+    assert text.count("<em>; 1 not judged, of no band from 5 to 500 Hz: 630 Hz</em>") == 3
+    assert "No verdict yet" not in text
+
+
 def test_inputs_have_the_units_of_the_trade(report):
     reader = Reader(report)
     assert row(reader, "Pad stiffness, kN/mm") == [["100", "200", "1000"]]

@@ -154,9 +154,13 @@ def test_limits_that_look_like_insertion_loss_are_asked_about(session, view, exc
     exchange.openers["specification"](b"63;10\n80;12")
     assert view.question.visible
     assert "answer the question above the table" in view.editor.message.object
-    assert session.assessment.results[0].verdict.complies
+    assert session.assessment.results[0].verdict is None
+    assert "No verdict yet" in view.verdict.object
+    assert "no limit is below 0 dB" in view.verdict.object
+    assert "No verdict yet; answer first" in ShortVerdict(session.assessment).pane.object
     turn.param.trigger("clicks")
     assert limits(session) == {63.0: -10.0, 80.0: -12.0}
+    assert "No verdict" not in view.verdict.object
     assert not view.question.visible
     assert not session.assessment.results[0].verdict.complies
     type_in(view, "63", "10")
@@ -164,12 +168,54 @@ def test_limits_that_look_like_insertion_loss_are_asked_about(session, view, exc
     assert view.question.visible
     keep.param.trigger("clicks")
     assert not view.question.visible
+    assert session.assessment.results[0].verdict.complies
     type_in(view, "80", "13")
     assert not view.question.visible
     exchange.openers["specification"]("Hz;Dämmung\n63;10\n80;-1".encode())
     assert view.question.visible
     view.editor.clear.param.trigger("clicks")
     assert not view.question.visible
+
+
+def test_what_was_answered_travels_in_a_study_and_an_open_question_too(session, view, exchange):
+    _, keep = view.question[1]
+    exchange.openers["specification"](b"63;10\n80;12")
+    asked = session.snapshot.study().to_toml()
+    keep.param.trigger("clicks")
+    answered = session.snapshot.study().to_toml()
+    session.snapshot.open(asked)
+    assert view.question.visible
+    assert session.assessment.current.verdict is None
+    session.snapshot.open(answered)
+    assert not view.question.visible
+    assert session.assessment.current.verdict is not None
+
+
+def test_a_new_table_leaves_the_limit_of_deflection_and_is_asked_about_anew(session, view, exchange):
+    _, keep = view.question[1]
+    exchange.openers["specification"](b"63;10")
+    keep.param.trigger("clicks")
+    view.deflection.boxes["rail_deflection_limit"].value = "2.5"
+    assert not view.question.visible
+    exchange.openers["specification"](b"63;11")
+    assert view.question.visible
+    assert session.assessment.specification.rail_deflection_limit == pytest.approx(2.5e-3)
+
+
+def test_limits_that_were_not_taken_are_named_with_the_verdict(session, view, exchange):
+    exchange.openers["specification"](b"63;-3\n630;-4\n<img>;-5")
+    rest = "2 not judged, of no band from 5 to 500 Hz: 630 Hz, &#x27;&lt;img&gt;&#x27;"
+    assert rest in view.verdict.object
+    assert rest in ShortVerdict(session.assessment).pane.object
+    assert "not taken, see below" not in view.verdict.object
+    type_in(view, "80", "abc")
+    assert "What was given last was not taken" in view.verdict.object
+    type_in(view, "80", "-5")
+    assert "not taken, see below" not in view.verdict.object
+    assert rest in view.verdict.object
+    view.editor.clear.param.trigger("clicks")
+    type_in(view, "80", "-5")
+    assert "not judged" not in view.verdict.object
 
 
 def test_template_and_table_are_saved_as_they_are_read(session, view, exchange):
