@@ -28,7 +28,7 @@ from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.levels.specification import not_judged_text
 from trackig_core.solver import FIDELITIES
 from trackig_core.study.catalogue import KINDS
-from trackig_core.track.fields import SEARCHED_RANGES
+from trackig_core.track.fields import GIVEN, SEARCHED_RANGES
 
 FAILED, STOPPED = 1, 130
 """Exit codes: nothing complies; the user pressed Ctrl+C."""
@@ -128,7 +128,7 @@ def _add_repeated(command, option, action="append", **words):
     command.add_argument(option, action=action, **words)
 
 
-FIELD_HELP = "this field, such as boot_stiffness or ground.stiffness"
+FIELD_HELP = "this field, such as boot_stiffness; of vehicle and site, such as wheel_mass, only when named"
 
 
 def _add_range(add):
@@ -442,7 +442,14 @@ def _rows(result, table):
         table = table[["field", "change", *result.figures]]
     if table.empty:
         return "(no row)"
+    if "field" in table:
+        table = table.assign(field=[_marked(name) for name in table["field"]])
     return table.to_string(index=False, float_format="{:.5g}".format)
+
+
+def _marked(name):
+    """Return the name of a field, and whose it is if not the track's."""
+    return f"{name} ({GIVEN[name]})" if name in GIVEN else name
 
 
 def _tolerance_rows(result):

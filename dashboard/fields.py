@@ -8,7 +8,7 @@ cover too. What the core takes [SI] stands in ``RANGES`` of ``trackig_core.track
 from dataclasses import dataclass
 
 from trackig_core.decide.numbers import is_logarithmic
-from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, RANGES, SEARCHED_RANGES
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, GIVEN, RANGES, SEARCHED_RANGES
 
 OPENING_PRESET = "booted-block-low-mass"
 """The preset on which the dashboard opens."""
@@ -96,6 +96,16 @@ class Field:
     def taken(self):
         """Least and greatest value that its box takes [display units]."""
         return self.low, self.high if self.most is None else self.most
+
+    @property
+    def whose(self):
+        """Whose the number is, such as the vehicle's; empty if it is the track's own."""
+        return GIVEN.get(self.name, "")
+
+    @property
+    def marked(self):
+        """Label, and whose the number is if it is not the track's: for where designs are chosen."""
+        return f"{self.label} ({self.whose})" if self.whose else self.label
 
     @property
     def labelled(self):

@@ -11,6 +11,7 @@ import param
 from dashboard.compute.inquiries import Inquiry, InquiryRunner, question_of
 from dashboard.fields import ASKED_FIELDS, FIELDS, PHYSICAL
 from dashboard.formats import quantity_text
+from trackig_core.decide.numbers import single_numbers
 
 FIGURES = 4
 """To which edges are shown [-]: the library finds them to 0.1 %."""
@@ -29,6 +30,7 @@ class Feasibility(Inquiry):
         The specification.
     """
 
+    given = param.Boolean(default=False, doc="Whether numbers of vehicle and site are looked at too.")
     stale = param.Boolean(default=False, doc="Whether the ranges are those of an earlier design.")
 
     def __init__(self, inputs, definition, assessment):
@@ -39,6 +41,7 @@ class Feasibility(Inquiry):
         inputs.param.watch(self.ask, list(PHYSICAL))
         definition.param.watch(self.ask, ["reference", "summation"])
         assessment.param.watch(self.ask, "specification")
+        self.param.watch(self.ask, "given")
         self.ask()
 
     def ask(self, *_):
@@ -46,7 +49,8 @@ class Feasibility(Inquiry):
         design, specification = self._inputs.to_design(), self._assessment.in_force
         if specification is not None and specification.rail_deflection_limit is None:
             design = design.without_statics
-        question = question_of("range", {}, self._assessment, self._definition, design=design)
+        settings = {"fields": list(single_numbers(design))} if self.given else {}
+        question = question_of("range", settings, self._assessment, self._definition, design=design)
         if question is None:
             self.param.update(asked=None, answered=None, result=None, problem="")
         else:

@@ -119,7 +119,7 @@ def question_lines(answer):
 
 def _range(_, result):
     rows = tuple(
-        (ASKED_FIELDS[name].label, with_unit(name, result.design.value(name)), where(result, name))
+        (ASKED_FIELDS[name].marked, with_unit(name, result.design.value(name)), where(result, name))
         for name in result
         if name in ASKED_FIELDS
     )
@@ -171,7 +171,7 @@ def _tolerance(answer, result):
     specification = answer.question.specification
     low, median, high = map(formats.signed_text, result.margin_percentiles)
     rows = tuple(
-        (ASKED_FIELDS[name].label if name in ASKED_FIELDS else name, f"{100 * share:.1f} %")
+        (ASKED_FIELDS[name].marked if name in ASKED_FIELDS else name, f"{100 * share:.1f} %")
         for name, share in result.tightened.items()
     )
     worst = (

@@ -93,7 +93,7 @@ def settings_texts(question):
 
 def field_label(name):
     """Return what a field is called in the middle of a sentence."""
-    return ASKED_FIELDS[name].label.lower() if name in ASKED_FIELDS else name.replace("_", " ")
+    return ASKED_FIELDS[name].marked.lower() if name in ASKED_FIELDS else name.replace("_", " ")
 
 
 def with_unit(name, value, figures=4):

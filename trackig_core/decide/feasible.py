@@ -20,11 +20,11 @@ from trackig_core.arrays import AnyArray, BoolArray, IntArray, RealArray
 from trackig_core.decide.numbers import single_numbers
 from trackig_core.decide.requirements import DEFLECTION, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import amount, plain
+from trackig_core.decide.words import amount, spoken
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
-from trackig_core.track.fields import RANGES, SEARCHED_RANGES, SLIDER_RANGES
+from trackig_core.track.fields import GIVEN, RANGES, SEARCHED_RANGES, SLIDER_RANGES
 from trackig_core.track.rails import RAILS
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class FeasibleRanges(Mapping[str, Intervals]):
 
     def sentence(self, field: str) -> str:
         """Return where a field complies, in words, such as ``"boot stiffness at most 10.85 MN/m"``."""
-        return f"{plain(field)} {self._where(field)}"
+        return f"{spoken(field)} {self._where(field)}"
 
     def _where(self, field: str) -> str:
         intervals, (least, greatest) = self.intervals[field], self.ranges[field]
@@ -192,7 +192,8 @@ def feasible_ranges(
     reference, summation : str
         Definition of insertion gain, as for :func:`trackig_core.solve`.
     fields : sequence of str, optional
-        Fields to look at; by default all of :data:`SLIDER_RANGES` that are single numbers in this design.
+        Fields to look at; by default those of :data:`SLIDER_RANGES` that are the track's, not the vehicle's
+        (see :data:`GIVEN`), and single numbers in this design.
         Those of suspension and ground are named by path, such as ``"ground.stiffness"``.
     ranges : dict of str to (float, float), optional
         Ranges of some fields [unit of the field], in place of :data:`SEARCHED_RANGES`.
@@ -259,7 +260,8 @@ def searched_ranges(
                 f"range of {name} = {brief((low, high))}: give a low end above 0 and a higher one"
             )
         design.replace(**{name: low}), design.replace(**{name: high})
-    wanted = [name for name in known if name in SLIDER_RANGES] if fields is None else fields
+    asked = (*SLIDER_RANGES.keys() - GIVEN.keys(), *given)
+    wanted = [name for name in known if name in asked] if fields is None else fields
     return {name: given.get(name, SEARCHED_RANGES[name]) for name in wanted}
 
 

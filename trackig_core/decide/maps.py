@@ -16,7 +16,7 @@ from trackig_core.decide.feasible import Ranges, searched_ranges
 from trackig_core.decide.numbers import is_logarithmic
 from trackig_core.decide.requirements import WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import amount, how_much, in_unit, plain, sentence
+from trackig_core.decide.words import amount, how_much, in_unit, sentence, spoken
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
@@ -84,8 +84,8 @@ class DesignMap:
         name, values = next(iter(self.figures.items()))
         row, column = np.unravel_index(np.nanargmax(values), values.shape)
         place = (
-            f"{plain(self.x_field)} {amount(self.x_field, self.x[column])} and "
-            f"{plain(self.y_field)} {amount(self.y_field, self.y[row])}"
+            f"{spoken(self.x_field)} {amount(self.x_field, self.x[column])} and "
+            f"{spoken(self.y_field)} {amount(self.y_field, self.y[row])}"
         )
         most = f"the greatest {WORDS[name]} is {in_unit(name, values[row, column])}, with {place}"
         if self.complies is None:

@@ -27,7 +27,7 @@ from trackig_core.decide.tolerances import (
     drawn_shares,
     make_factors,
 )
-from trackig_core.decide.words import how_much, plain, sentence
+from trackig_core.decide.words import how_much, sentence, spoken
 from trackig_core.frequency_domain.batch import BatchSolution, solve_many
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
@@ -121,7 +121,7 @@ class ToleranceResult:
         if self.tighten_first is None:
             return f"{said}." if self.complying else f"{said}, whichever scatter is halved."
         which = self.tighten_first
-        words = "scatter of the tested specimens" if which == "production" else plain(which)
+        words = "scatter of the tested specimens" if which == "production" else spoken(which)
         return f"{said}; tighten the {words} first."
 
 

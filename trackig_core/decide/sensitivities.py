@@ -30,12 +30,13 @@ from trackig_core.decide.tolerances import (
     drawn_shares,
     make_factors,
 )
-from trackig_core.decide.words import percent, plain
+from trackig_core.decide.words import percent, spoken
 from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
+from trackig_core.track.fields import GIVEN
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 
 if TYPE_CHECKING:
@@ -85,6 +86,17 @@ class Sensitivity:
         largest = np.abs(self.differences[figure]).max(axis=1)
         return tuple(self.fields[place] for place in np.argsort(-largest, kind="stable"))
 
+    def first(self, figure: str) -> tuple[str, str]:
+        """Return the track's field that changes a figure most, and one of vehicle or site that does more.
+
+        Where none of the track's own fields was changed, the first is that of all; the second is empty if
+        there is none.
+        """
+        ranked = self.ranked(figure)
+        own = [name for name in ranked if name not in GIVEN]
+        first = own[0] if own else ranked[0]
+        return first, "" if first == ranked[0] else ranked[0]
+
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a pandas.DataFrame, one row a change: field, share [-], differences."""
         import pandas as pd
@@ -104,12 +116,13 @@ class Sensitivity:
     def __str__(self) -> str:
         """Return one sentence."""
         figure = next(iter(self.figures))
-        first = self.ranked(figure)[0]
+        first, given = self.first(figure)
         down, up = self.differences[figure][self.fields.index(first)]
         change = 100 * self.changes[first]
+        rest = given and f" More than the track's own numbers does {spoken(given)}."
         return (
-            f"The {WORDS[figure]} depends most on {plain(first)}: {change:.3g} % less changes it by "
-            f"{down:+.2f} {UNITS[figure]}, {change:.3g} % more by {up:+.2f} {UNITS[figure]}."
+            f"The {WORDS[figure]} depends most on {spoken(first)}: {change:.3g} % less changes it by "
+            f"{down:+.2f} {UNITS[figure]}, {change:.3g} % more by {up:+.2f} {UNITS[figure]}.{rest}"
         )
 
 
@@ -251,7 +264,7 @@ class SobolIndices:
         total, alone = (percent(float(order[0, first])) for order in (self.total_order, self.first_order))
         return (
             f"Of the scatter of the {WORDS[self.figures[0]]}, {total} is due to the "
-            f"{plain(self.factors[first])}, {alone} to it alone."
+            f"{spoken(self.factors[first])}, {alone} to it alone."
         )
 
 

@@ -1,7 +1,7 @@
 """Numbers of a design in words that can be read aloud: SI units, with prefixes where figures are long."""
 
 from trackig_core.decide.requirements import DEFLECTION, UNITS
-from trackig_core.track.fields import RANGES
+from trackig_core.track.fields import GIVEN, RANGES
 
 _PREFIXED = ("N/m", "N s/m")
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
@@ -32,9 +32,13 @@ def amount(field: str, value: float, figures: int = 4) -> str:
     return f"{value:.{figures}g} {unit}".rstrip()
 
 
-def plain(field: str) -> str:
-    """Return the name of a field as it is spoken, such as ``"boot stiffness"`` or ``"ground damping"``."""
-    return field.replace("_", " ").replace(".", " ")
+def spoken(field: str) -> str:
+    """Return the name of a field as it is spoken: ``"boot stiffness"`` or ``"ground damping (site)"``.
+
+    Whose it is stands behind it where no track's supplier chooses it.
+    """
+    name = field.replace("_", " ").replace(".", " ")
+    return f"{name} ({GIVEN[field]})" if field in GIVEN else name
 
 
 def percent(share: float) -> str:

@@ -142,6 +142,13 @@ wagons, from less than soft clay to more than rock."""
 SEARCHED_RANGES = SLIDER_RANGES | AROUND_RANGES
 """What is searched of each number unless other ranges are given [SI]."""
 
+GIVEN = (
+    {"wheel_mass": "vehicle", "contact_stiffness": "wheel and rail", "speed": "vehicle"}
+    | {each.name: "vehicle" for each in SUSPENSION_FIELDS}
+    | {each.name: "site" for each in GROUND_FIELDS}
+)
+"""Whose each number is that a track's supplier does not choose, by name."""
+
 SCATTERED = (*SLIDER_RANGES, "pad_static_stiffness", "boot_static_stiffness", *AROUND_RANGES)
 """Numbers of a design that scatter, and that may be changed by a share of themselves."""
 

@@ -93,7 +93,7 @@ class Map(Asked):
 
     def words(self, result):
         """Return the answer in one sentence."""
-        x, y = (ASKED_FIELDS[name].label.lower() for name in (result.x_field, result.y_field))
+        x, y = (ASKED_FIELDS[name].marked.lower() for name in (result.x_field, result.y_field))
         if result.complies is None:
             return f"{result.x.size} times {result.y.size} designs over {x} and {y}."
         share = float(result.complies.mean())

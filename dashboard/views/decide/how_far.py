@@ -10,6 +10,7 @@ from dashboard.fields import ASKED_FIELDS
 from dashboard.session.answers import with_unit
 from dashboard.views.components import caption, panel
 from dashboard.views.decide.asked import Asked, scrolled, what_is_missing
+from dashboard.views.decide.inputs import given_box
 
 
 class HowFar(Asked):
@@ -20,6 +21,7 @@ class HowFar(Asked):
     def __init__(self, snapshot, exchange, feasibility):
         super().__init__(snapshot, exchange, feasibility)
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
+        self.given = given_box(self._look_at_given)
         feasibility.param.watch(self._dim, "stale")
         self._answered()
 
@@ -28,6 +30,9 @@ class HowFar(Asked):
         if self.inquiry.result is None:
             self._say(self.inquiry.problem or what_is_missing(self.assessment))
             self.table.object = ""
+
+    def _look_at_given(self, event):
+        self.inquiry.given = event.new
 
     def _dim(self, *_):
         self.table.styles = theme.STALE if self.inquiry.stale else theme.FRESH
@@ -44,7 +49,7 @@ class HowFar(Asked):
                 f", its rail sinking {1e3 * result.deflection:.2f} of {1e3 * result.deflection_limit:.2f} mm"
             )
         ways = [
-            f"{ASKED_FIELDS[name].label.lower()} {where(result, name)}"
+            f"{ASKED_FIELDS[name].marked.lower()} {where(result, name)}"
             for name in result
             if result[name] and name in ASKED_FIELDS
         ]
@@ -57,7 +62,7 @@ class HowFar(Asked):
     def show(self, result):
         """List the ranges."""
         rows = "".join(
-            f"<tr><th scope='row'>{html.escape(ASKED_FIELDS[name].label)}</th>"
+            f"<tr><th scope='row'>{html.escape(ASKED_FIELDS[name].marked)}</th>"
             f"<td>{with_unit(name, result.design.value(name))}</td><td>{where(result, name)}</td></tr>"
             for name in result
             if name in ASKED_FIELDS
@@ -69,7 +74,7 @@ class HowFar(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        return panel(caption("How far?", HOW_FAR), self.sentence, self.answered_row, self.table)
+        return panel(caption("How far?", HOW_FAR), self.given, self.sentence, self.answered_row, self.table)
 
 
 HOW_FAR = "where the design complies along each number, all others held"

@@ -63,7 +63,7 @@ class NumberBox(pmui.TextInput):
 
 def percent_box(name, value):
     """Return a box for a share of a field [%]."""
-    return NumberBox(f"{ASKED_FIELDS[name].label}, ± %", value, "%", most=MOST_CHANGE, width=190)
+    return NumberBox(f"{ASKED_FIELDS[name].marked}, ± %", value, "%", most=MOST_CHANGE, width=190)
 
 
 MOST_CHANGE = 90.0
@@ -100,13 +100,34 @@ def titled(title, boxes):
 
 def factor_label(name):
     """Return what scatters, as it is spoken."""
-    return ASKED_FIELDS[name].label.lower() if name in ASKED_FIELDS else "measured specimens"
+    return ASKED_FIELDS[name].marked.lower() if name in ASKED_FIELDS else "measured specimens"
 
 
-def number_options(design):
-    """Return the numbers that have a slider, and those of vehicle and ground that a design has, by label."""
+def number_options(design, given=True):
+    """Return the numbers that have a slider, and those of vehicle and ground that a design has, by label.
+
+    Parameters
+    ----------
+    design : trackig_core.TrackDesign
+        The design.
+    given : bool
+        Whether numbers are offered that no track's supplier chooses.
+
+    Returns
+    -------
+    dict of str to str
+        Name by label, which says whose a number is.
+    """
     around = [name for name in single_numbers(design) if name not in FIELDS]
-    return {ASKED_FIELDS[name].label: name for name in (*FIELDS, *around)}
+    fields = [ASKED_FIELDS[name] for name in (*FIELDS, *around)]
+    return {each.marked: each.name for each in fields if given or not each.whose}
+
+
+def given_box(changed):
+    """Return a box to tick where numbers that the track's supplier does not choose are to take part."""
+    box = pmui.Checkbox(label="Vehicle and site too", size="small", margin=(8, 12, 0, 8))
+    box.param.watch(changed, "value")
+    return box
 
 
 def offer(box, options):

@@ -15,6 +15,7 @@ from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside, said
 from dashboard.views.decide.inputs import (
     NumberBox,
     choice,
+    given_box,
     is_number,
     number_options,
     offer,
@@ -40,12 +41,13 @@ class Search(Asked):
         self._take, self._pin, self._chosen = take, pin, None
         self.free = pn.widgets.CheckBoxGroup(
             label="Free",
-            options=number_options(self.assessment.current.design),
+            options=number_options(self.assessment.current.design, given=False),
             value=["pad_stiffness", "block_mass", "boot_stiffness"],
             inline=True,
             stylesheets=[theme.CHECKS_CSS],
             margin=(0, 12, 0, 0),
         )
+        self.given = given_box(self.offer)
         self.against = choice(
             label="Greatest margin against least",
             options={
@@ -94,9 +96,9 @@ class Search(Asked):
         self.against.param.watch(self._offer_prices, "value")
         self.inquiry.param.watch(NextTick(self._grow), "so_far")
 
-    def offer(self):
-        """Offer the numbers that the current design has."""
-        offer(self.free, number_options(self.assessment.current.design))
+    def offer(self, *_):
+        """Offer the numbers that the current design has, those of vehicle and site only when asked for."""
+        offer(self.free, number_options(self.assessment.current.design, self.given.value))
 
     def settings(self):
         """Return what is asked about the current design."""
@@ -193,6 +195,7 @@ class Search(Asked):
         pictures = (objectives, self.cloud.fields, self.cloud.gains)
         return pn.Column(
             titled("Free", self.free),
+            self.given,
             titled("From the catalogue", self.chosen),
             pn.FlexBox(
                 self.against,

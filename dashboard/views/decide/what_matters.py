@@ -57,25 +57,27 @@ class WhatMatters(Asked):
         options = {FIGURE_WORDS[name][0]: name for name in result.figures}
         if list(self.figure.options) != list(options):
             self.figure.param.update(options=options, value=next(iter(options.values())))
-        labels = [ASKED_FIELDS[name].label for name in result.fields]
+        labels = [ASKED_FIELDS[name].marked for name in result.fields]
         self.changes.show(labels, result.bands[:, 1])
         ranked = result.ranked(self.figure.value)
         rows = [result.fields.index(name) for name in ranked]
         words, scale = FIGURE_WORDS[self.figure.value]
         changes = result.differences[self.figure.value][rows] * scale
-        self.tornado.show([ASKED_FIELDS[name].label for name in ranked], changes, f"Change of: {words}")
+        self.tornado.show([ASKED_FIELDS[name].marked for name in ranked], changes, f"Change of: {words}")
 
     def words(self, result):
         """Return the answer in one sentence."""
         first = next(iter(result.figures))
-        name = result.ranked(first)[0]
+        name, given = result.first(first)
         words, scale = FIGURE_WORDS[first]
         quantity, _, unit = words.partition(", ")
         less, more = scale * result.differences[first][result.fields.index(name)]
-        change, label = f"{100 * result.changes[name]:.3g} %", ASKED_FIELDS[name].label.lower()
+        change, label = f"{100 * result.changes[name]:.3g} %", ASKED_FIELDS[name].marked.lower()
+        rest = given and f" More than the track's own numbers does the {ASKED_FIELDS[given].marked.lower()}."
         return (
             f"The {quantity.lower()} depends most on the {label}: {change} less changes it "
             f"by {formats.signed_text(less)} {unit}, {change} more by {formats.signed_text(more)} {unit}."
+            f"{rest}"
         )
 
     def build(self):

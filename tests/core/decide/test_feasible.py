@@ -38,15 +38,28 @@ def edges(found):
 def test_exact_solutions_comply_on_one_side_of_each_edge_and_fail_on_the_other(design, definition):
     specification = limits_around(design, 1.0, definition=definition)
     reference, summation = definition
-    found = feasible_ranges(design, specification, reference=reference, summation=summation)
+    names = [name for name in SLIDER_RANGES if getattr(design, name) is not None]
+    found = feasible_ranges(design, specification, reference=reference, summation=summation, fields=names)
     assert found.complies
-    assert set(found) == {name for name in SLIDER_RANGES if getattr(design, name) is not None}
+    assert list(found) == names
     checked = list(edges(found))
     assert len(checked) >= 8
     for field, edge, above in checked:
         for factor, expected in ((0.999, not above), (1.001, above)):
             moved = design.replace(**{field: edge * factor})
             assert complies(moved, specification, definition) == expected, (field, edge, factor)
+
+
+def test_what_the_vehicle_gives_is_looked_at_only_when_asked_for():
+    fails = limits_around(BLOCK, -1.0)
+    own = SLIDER_RANGES.keys() - {"wheel_mass", "contact_stiffness"}
+    found = feasible_ranges(BLOCK, fails)
+    assert set(found) == own
+    assert "vehicle" not in str(found)
+    asked = feasible_ranges(BLOCK, fails, fields=["wheel_mass"])
+    assert "wheel mass (vehicle) " in asked.sentence("wheel_mass")
+    ranged = feasible_ranges(BLOCK, fails, ranges={"wheel_mass": (500.0, 900.0)})
+    assert set(ranged) == own | {"wheel_mass"}
 
 
 def test_a_deflection_limit_makes_an_edge_where_the_rail_sinks_so_far():

@@ -11,6 +11,7 @@ from tests.core.frequency_domain.test_batch import CURVE
 from trackig_core.decide.production import tolerance
 from trackig_core.decide.sensitivities import indices_of, sensitivity, sobol
 from trackig_core.decide.tolerances import Normal, Uniform, drawn_shares, make_factors
+from trackig_core.track.fields import GIVEN
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 
@@ -253,6 +254,12 @@ def test_differences_are_those_of_exact_solutions(specification):
     tracks = [each.natural_frequencies.loaded_track for each in (base, softer)]
     assert found.differences["loaded_track"][row, 0] == pytest.approx(tracks[1] - tracks[0], rel=1e-6)
     assert found.ranked("margin")[0] in str(found).replace(" ", "_")
+    own = next(name for name in found.ranked("margin") if name not in GIVEN)
+    assert f"depends most on {own.replace('_', ' ')}: 10 % less" in str(found)
+    # of the loaded track's mass, the wheel is nearly all
+    assert found.ranked("loaded_track")[0] == "wheel_mass"
+    assert found.first("loaded_track") == ("fastener_spacing", "wheel_mass")
+    assert sensitivity(BLOCK, changes={"wheel_mass": 0.1}).first("loaded_track") == ("wheel_mass", "")
     assert found.to_dataframe().shape == (16, 2 + 5 + 21)
 
 

@@ -83,8 +83,13 @@ def test_without_a_specification_it_says_what_to_do(summary, make_pictures):
 def test_ranges_are_the_library_s_in_the_units_of_the_sliders(session):
     session.do(session.view.look, active=True)
     view = session.view.how_far
-    expected = tig.decide.feasible_ranges(BLOCK, LIMITS, fields=list(FIELDS))
+    expected = tig.decide.feasible_ranges(BLOCK, LIMITS)
     assert dict(view.inquiry.result) == dict(expected)
+    assert "vehicle" not in view.table.object + view.sentence.object
+    session.do(view.given.param.update, value=True)
+    assert list(view.inquiry.result) == list(FIELDS)
+    assert "Unsprung wheel mass (vehicle)" in view.table.object
+    session.do(view.given.param.update, value=False)
     (low, high), *_ = expected["boot_stiffness"]
     shown = float(re.search(r"to ([\d.]+) kN/mm", where(expected, "boot_stiffness"))[1])
     # the number itself complies, and no greater one of as many figures
@@ -112,10 +117,13 @@ def test_what_matters_is_drawn_as_computed(session):
     expected = tig.decide.sensitivity(BLOCK, LIMITS, changes=dict.fromkeys(FIELDS, 0.1))
     cells = view.changes.cells.data
     for row, name in enumerate(FIELDS):
-        mine = [each == FIELDS[name].label for each in cells["field"]]
+        mine = [each == FIELDS[name].marked for each in cells["field"]]
         np.testing.assert_array_equal(np.array(cells["change"])[mine], expected.bands[row, 1])
     first = expected.ranked("margin")[0]
-    assert view.tornado.bars.data["field"][0] == FIELDS[first].label
+    assert view.tornado.bars.data["field"][0] == FIELDS[first].marked
+    own, given = expected.first("margin")
+    assert f"depends most on the {FIELDS[own].label.lower()}: 10 % less" in view.sentence.object
+    assert (given == "wheel_mass") == ("does the unsprung wheel mass (vehicle)." in view.sentence.object)
     assert (
         view.tornado.bars.data["less"][0] == expected.differences["margin"][expected.fields.index(first), 0]
     )
@@ -191,6 +199,18 @@ def test_a_search_is_drawn_taken_and_pinned(session):
     assert session.pins.pinned[0].name == "Best <b>"
     assert session.inputs.boot_stiffness == pytest.approx(expected.boot_stiffness / 1e6, rel=1e-5)
     assert session.pins.pinned[0].design == session.inputs.to_design()
+
+
+def test_what_vehicle_and_site_give_is_free_only_when_asked_for(session):
+    search = session.view.search
+    session.do(search.offer)
+    assert set(search.free.options.values()) == {name for name in FIELDS if not FIELDS[name].whose}
+    search.given.value = True
+    assert search.free.options["Unsprung wheel mass (vehicle)"] == "wheel_mass"
+    search.free.value = ["boot_stiffness", "wheel_mass"]
+    assert search.settings()["free"] == ["boot_stiffness", "wheel_mass"]
+    search.given.value = False
+    assert search.settings()["free"] == ["boot_stiffness"]
 
 
 def test_keys_move_a_cross_over_the_map_and_take_the_design_under_it(session):
@@ -503,6 +523,8 @@ def surrounded(session, fake_picture):
 
 def test_numbers_of_vehicle_and_ground_are_offered_while_the_design_has_them(surrounded, fake_picture):
     view = surrounded.view
+    assert {*view.search.free.options.values()} == {name for name in FIELDS if not FIELDS[name].whose}
+    view.search.given.value = True
     for box in (view.map.x, view.map.y, view.search.free):
         assert {"suspension.primary_stiffness", "ground.damping"} <= {*box.options.values()}
         assert "speed" not in box.options.values(), "of one wheel it does not matter"
@@ -523,7 +545,7 @@ def test_what_matters_about_vehicle_and_ground_is_the_library_s(surrounded):
     expected = tig.decide.sensitivity(SPRUNG, LIMITS, reference="stiff")
     assert view.inquiry.result.fields == expected.fields
     np.testing.assert_array_equal(view.inquiry.result.bands, expected.bands)
-    assert "Ground stiffness" in view.changes.cells.data["field"]
+    assert "Ground stiffness (site)" in view.changes.cells.data["field"]
 
 
 def test_a_map_of_a_ground_takes_its_designs(surrounded, monkeypatch):
