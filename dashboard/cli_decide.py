@@ -349,6 +349,8 @@ def _answer(shell, kind, settings, options):
         reference=reference_for(design, study.view.reference),
         summation=study.view.summation,
     )
+    if kind == "find" and _is_unlimited(question):
+        sys.stderr.write(f"trackig: {UNLIMITED}\n")
     with watched(options.scheduler) as how:
         result = question.ask(**how)
     table, answer = result.to_dataframe(), Answer.of(question, result)
@@ -417,10 +419,24 @@ def _anything_complies(result):
     return not isinstance(result, decide.FoundDesigns) or result.front.size > 0
 
 
+UNLIMITED = (
+    "no limit of rail deflection is set, and softer always isolates more, so that the search runs to the "
+    "softest designs of its ranges; give --max-deflection, in m, or limit it in the specification"
+)
+
+
+def _is_unlimited(question):
+    """Return whether nothing limits how far the rail may sink in a search."""
+    specification = question.specification
+    limited = specification is not None and specification.rail_deflection_limit is not None
+    return not limited and "max_deflection" not in question.settings
+
+
 def _text(result, table, specification):
     """Return what is printed: the rows that fit on a screen, the sentence, and limits that are not judged."""
     rest = "" if specification is None else not_judged_text(specification.not_judged)
-    sentences = (str(result), rest and f"Limits of the specification: {rest}.")
+    explained = getattr(result, "explained", "")
+    sentences = (str(result), explained, rest and f"Limits of the specification: {rest}.")
     return "\n".join([_rows(result, table), "", *filter(None, sentences)]) + "\n"
 
 
@@ -430,6 +446,8 @@ def _rows(result, table):
 
     if isinstance(result, decide.FoundDesigns):
         columns = [name for name in table if name in result.free or name in result.objectives]
+        table = table.assign(deflection_mm=1e3 * result.deflections)
+        columns += [] if "deflection" in result.objectives else ["deflection_mm"]
         columns += [name for name in ("slack", "governed_by") if name in table]
         places = result.front if result.front.size else [result.closest]
         table = table.loc[places, columns]

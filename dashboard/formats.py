@@ -2,6 +2,8 @@
 
 import math
 
+from trackig_core.decide.words import change_words
+
 
 def frequency_text(frequency):
     """Return a frequency [Hz] as a reader wants it: three figures, with its unit."""
@@ -17,6 +19,11 @@ def duration_text(seconds):
 def level_text(level):
     """Return a level [dB] with its sign and one decimal; a true minus, so that columns align."""
     return f"{level:+.1f} dB".replace("-", "−")
+
+
+def change_text(value):
+    """Return a change with its sign, a true minus, and two figures, however small."""
+    return change_words(value).replace("-", "−")
 
 
 SUMMATIONS = {

@@ -18,6 +18,9 @@ LOADED_TRACK = "#d55e00"
 COUPLED_BLOCK = "#00966e"
 """The block between pad and boot."""
 
+COMPLYING = "#56b4e9"
+"""Designs of a search that comply and are beaten by another: no red, which would say that they fail."""
+
 PRESET_GHOST = "#808080"
 """The preset from which a modified design departs; also axes and zero lines."""
 

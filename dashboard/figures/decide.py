@@ -38,9 +38,12 @@ from dashboard.figures.axes import (
 )
 from dashboard.figures.legends import Legend, legend_above, with_legend
 from dashboard.figures.swatches import marker_svg, swatch_svg
+from dashboard.formats import change_text
+from dashboard.session.answers import BETTER, scale_title
 
-LESS, MORE = RdBu11[8], RdBu11[2]
-"""Colours of less and of more, seen on light and on dark paper and told apart by colour-blind readers."""
+LESS, MORE = RdBu11[2], RdBu11[8]
+"""Colours of less vibration, blue, and of more, red, seen on light and on dark paper and told apart by
+colour-blind readers."""
 
 DIVERGING = tuple(
     f"{LESS if step < 0 else MORE}{round(255 * abs(step)):02x}" for step in np.linspace(-1.0, 1.0, 11)
@@ -76,10 +79,10 @@ class ChangeFigure:
         The figure.
     cells : bokeh.models.ColumnDataSource
         Named ``changes``: per cell its ``field``, its ``band``, its edges and the ``change`` of insertion
-        gain [dB].
+        gain [dB], also as ``text``.
     """
 
-    COLUMNS = ("field", "band", "left", "right", "bottom", "top", "change")
+    COLUMNS = ("field", "band", "left", "right", "bottom", "top", "change", "text")
 
     def __init__(self):
         self.cells = ColumnDataSource(name="changes", data={name: [] for name in self.COLUMNS})
@@ -104,11 +107,11 @@ class ChangeFigure:
             fill_color={"field": "change", "transform": self._colours},
             line_color=None,
         )
-        plot.add_layout(ColorBar(color_mapper=self._colours, title="dB", width=12), "right")
+        plot.add_layout(ColorBar(color_mapper=self._colours, title="dB, blue: better", width=12), "right")
         plot.add_tools(
             HoverTool(
                 renderers=[cells],
-                tooltips=[("field", "@field"), ("band", "@band Hz"), ("change", "@change{+0.00} dB")],
+                tooltips=[("field", "@field"), ("band", "@band Hz"), ("change", "@text dB")],
             )
         )
 
@@ -134,6 +137,7 @@ class ChangeFigure:
             "bottom": [(label, -CELL / 2) for label in labels for _ in range(bands)],
             "top": [(label, CELL / 2) for label in labels for _ in range(bands)],
             "change": changes.ravel(),
+            "text": list(map(change_text, changes.ravel())),
         }
 
 
@@ -145,11 +149,14 @@ class TornadoFigure:
     model : bokeh.plotting.figure
         The figure.
     bars : bokeh.models.ColumnDataSource
-        Named ``tornado``: per field its name, the change when it is ``less`` and when it is ``more``.
+        Named ``tornado``: per field its name, the change when it is ``less`` and when it is ``more``, and
+        both as text.
     """
 
+    COLUMNS = ("field", "less", "more", "less_text", "more_text")
+
     def __init__(self):
-        self.bars = ColumnDataSource(name="tornado", data={"field": [], "less": [], "more": []})
+        self.bars = ColumnDataSource(name="tornado", data={name: [] for name in self.COLUMNS})
         self._fields = FactorRange(factors=[])
         self.model = plot = figure(
             name="tornado_figure",
@@ -164,7 +171,7 @@ class TornadoFigure:
         plot.xaxis.ticker = plot.xgrid.ticker = BasicTicker(desired_num_ticks=TORNADO_TICKS)
         plot.add_layout(zero_line("height"))
         sides = (
-            ("less", theme.LOADED_TRACK, "", 0.2),
+            ("less", theme.PRESET_GHOST, "", 0.2),
             ("more", theme.THIS_DESIGN, "right_diagonal_line", -0.2),
         )
         for column, colour, hatch, _ in sides:
@@ -182,7 +189,7 @@ class TornadoFigure:
             )
         legend_above(plot)
         plot.add_tools(
-            HoverTool(tooltips=[("field", "@field"), ("less", "@less{+0.00}"), ("more", "@more{+0.00}")])
+            HoverTool(tooltips=[("field", "@field"), ("less", "@less_text"), ("more", "@more_text")])
         )
 
     def show(self, labels, changes, axis):
@@ -200,7 +207,13 @@ class TornadoFigure:
         self._fields.factors = list(labels)[::-1]
         self.model.xaxis.axis_label = axis
         _fit(self.model.x_range, np.append(changes, 0.0))
-        self.bars.data = {"field": list(labels), "less": changes[:, 0], "more": changes[:, 1]}
+        self.bars.data = {
+            "field": list(labels),
+            "less": changes[:, 0],
+            "more": changes[:, 1],
+            "less_text": list(map(change_text, changes[:, 0])),
+            "more_text": list(map(change_text, changes[:, 1])),
+        }
 
 
 class PercentileFigure:
@@ -329,13 +342,16 @@ class MapFigure:
             if field.logarithmic:
                 show_one_two_five(axis)
         colours = LinearColorMapper(
-            palette=Viridis256, low=float(np.nanmin(values)), high=float(np.nanmax(values))
+            palette=Viridis256[::-1] if BETTER.get(figure_name) == "low" else Viridis256,
+            low=float(np.nanmin(values)),
+            high=float(np.nanmax(values)),
         )
         # the axes are those along which the points are evenly spaced, so that an image of them is not bent
         image = plot.image(
             image=[values], x=x[0], y=y[0], dw=x[-1] - x[0], dh=y[-1] - y[0], color_mapper=colours
         )
-        plot.add_layout(ColorBar(color_mapper=colours, title=words, width=14), "right")
+        title = scale_title(figure_name, words)
+        plot.add_layout(ColorBar(color_mapper=colours, title=title, width=14), "right")
         plot.add_tools(
             HoverTool(renderers=[image], tooltips=[("x", "$x"), ("y", "$y"), (words, "@image{0.00}")])
         )
@@ -439,7 +455,7 @@ MOST_PLAIN = 3
 
 DOTS = {
     "no other beats it": theme.COUPLED_BLOCK,
-    "complies": theme.LOADED_TRACK,
+    "complies": theme.COMPLYING,
     "fails": theme.PRESET_GHOST,
     "chosen": theme.THIS_DESIGN,
 }

@@ -14,7 +14,15 @@ from dashboard import formats, theme
 from dashboard.compute.feasibility import where
 from dashboard.fields import ASKED_FIELDS
 from dashboard.report import plots
-from dashboard.session.answers import FIGURE_WORDS, TITLES, field_label, settings_texts, with_unit
+from dashboard.session.answers import (
+    BETTER,
+    FIGURE_WORDS,
+    TITLES,
+    field_label,
+    scale_title,
+    settings_texts,
+    with_unit,
+)
 from dashboard.session.special import curve_text
 from trackig_core.decide.questions import digest
 from trackig_core.levels.specification import not_judged_text
@@ -142,9 +150,7 @@ def _sensitivity(_, result):
 
 
 def _less_and_more(result, name, row):
-    less, more = (
-        f"{FIGURE_WORDS[name][1] * each:+.2f}".replace("-", "−") for each in result.differences[name][row]
-    )
+    less, more = (formats.change_text(FIGURE_WORDS[name][1] * each) for each in result.differences[name][row])
     return f"{less} / {more}"
 
 
@@ -207,8 +213,9 @@ def _map(answer, result):
         figure, axes = plots.blank(4.2)
         # areas between levels: an image would be fetched from outside the drawing, which the file forbids
         x, y = result.x / x_field.factor, result.y / y_field.factor
-        areas = axes.contourf(x, y, values * scale, levels=MAP_LEVELS, cmap="viridis")
-        figure.colorbar(areas, ax=axes, label=words)
+        colours = "viridis_r" if BETTER.get(name) == "low" else "viridis"
+        areas = axes.contourf(x, y, values * scale, levels=MAP_LEVELS, cmap=colours)
+        figure.colorbar(areas, ax=axes, label=scale_title(name, words))
         if result.complies is not None and "margin" in result.figures:
             axes.contour(
                 x, y, result.figures["margin"], levels=[0.0], colors=[theme.SPECIFICATION], linewidths=2.2
@@ -237,11 +244,13 @@ def _find(_, result):
     fields = [name for name in ASKED_FIELDS if _numbers_vary(result, name)]
     objectives = [name for name in result.objectives if name not in fields]
     with_rail = "rail" not in result.chosen and _varies(result, "rail")
+    with_deflection = "deflection" not in objectives
     heads = (
         *(ASKED_FIELDS[name].labelled for name in fields),
         *(["Rail"] if with_rail else []),
         *(kind.capitalize() for kind in result.chosen),
         *(figure_words(name)[0] for name in objectives),
+        *([FIGURE_WORDS["deflection"][0]] if with_deflection else []),
     )
     best = result.front[:: max(1, -(-result.front.size // MOST_ROWS))]
     rows = []
@@ -255,10 +264,12 @@ def _find(_, result):
         for name in objectives:
             value = result.values[place, result.objectives.index(name)] * figure_words(name)[1]
             cells.append(f"{value:.2f}")
+        cells += [f"{1e3 * result.deflections[place]:.2f}"] if with_deflection else []
         rows.append(tuple(cells))
     words = "Designs of the front" if best.size else "No design complies; this one comes closest"
     listed = f"{words}, {len(rows)} of {max(result.front.size, 1)}. Seed {result.seed}."
-    return AnswerPage((AnswerTable(heads, tuple(rows)),), remarks=(listed,))
+    remarks = (listed, *filter(None, (result.explained, result.unlimited)))
+    return AnswerPage((AnswerTable(heads, tuple(rows)),), remarks=remarks)
 
 
 def _numbers_vary(result, name):

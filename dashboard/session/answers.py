@@ -4,6 +4,7 @@ import param
 
 from dashboard.fields import ASKED_FIELDS
 from dashboard.formats import quantity_text
+from trackig_core.bands import BAND_LABELS
 
 MOST_KEPT = 20
 """Answers that a session keeps [-]: a page of the report each."""
@@ -28,6 +29,25 @@ FIGURE_WORDS = {
     "cost": ("Cost", 1.0),
 }
 """What figures are called, with the unit in which they are shown, and what turns them into it."""
+
+
+BETTER = {"margin": "high", "level": "low", "deflection": "low", "cost": "low"} | dict.fromkeys(
+    BAND_LABELS, "low"
+)
+"""Which end of a figure is the good one; frequencies have none."""
+
+
+def scale_title(name, words):
+    """Return what stands at the colours of a map: what is drawn, and which end is the good one.
+
+    Parameters
+    ----------
+    name : str
+        Name of the figure; the bright end of its colours is the good one.
+    words : str
+        What it is called, with its unit.
+    """
+    return f"{words}; {BETTER[name]}, bright: better" if name in BETTER else f"{words}; neither end is better"
 
 
 class KeepError(ValueError):

@@ -187,7 +187,16 @@ def test_find_takes_catalogues_and_rails(save, tmp_path, capsys):
     for row in rows:
         expected = price[row["boot_stiffness"]] + 0.1 * float(row["block_mass"])
         assert float(row["cost"]) == pytest.approx(expected, rel=1e-5)
-    assert "designs comply, and no other beats" in capsys.readouterr().out
+    told = capsys.readouterr()
+    assert "designs comply, and no other beats" in told.out
+    assert "No other beats a design: none that was tried is as good in margin and cost" in told.out
+    assert "deflection_mm" in told.out, "what each costs in deflection, though it was not sought"
+    assert "No limit of rail deflection is set" in told.out
+    assert "give --max-deflection, in m" in told.err
+    limited = [*words, "--population", "4", "--generations", "1", "--max-deflection", "0.02"]
+    assert main(limited) in (0, 1)
+    told = capsys.readouterr()
+    assert "o limit of rail deflection" not in told.out + told.err
 
 
 def test_find_takes_measured_components_of_a_catalogue(save, tmp_path, capsys):
@@ -360,6 +369,7 @@ def test_control_c_leaves_the_best_so_far(save, tmp_path):
         stderr=subprocess.PIPE,
         text=True,
     )
+    assert "no limit of rail deflection is set" in process.stderr.readline()
     # 0 % is told after the first generation
     assert process.stderr.readline() == "0 %\n"
     time.sleep(0.5)

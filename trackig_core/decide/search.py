@@ -80,6 +80,10 @@ class FoundDesigns:
         Seed, and generations that were finished.
     stopped : bool
         Whether the search was stopped before its end.
+    deflections : numpy.ndarray (tried,) [m]
+        Static rail deflection that each costs, under the specification's wheel load.
+    deflection_limit : float or None [m]
+        Greatest one allowed; without one a search runs to the softest designs of its ranges.
     """
 
     design: TrackDesign
@@ -94,6 +98,8 @@ class FoundDesigns:
     seed: int
     generations: int
     stopped: bool
+    deflections: RealArray = field(repr=False)
+    deflection_limit: float | None
 
     @property
     def complies(self) -> BoolArray:
@@ -140,7 +146,28 @@ class FoundDesigns:
             return f"No design complies; the closest misses the limit at {by} Hz by {miss:.1f} dB."
         best = zip(self.objectives, self.values[self.front].T, strict=True)
         ends = (f"{spoken(name)} {_span(name, values)}" for name, values in best)
-        return f"{self.summary}: {', '.join(ends)}."
+        unlimited = self.unlimited and f" {self.unlimited}"
+        return f"{self.summary}: {', '.join(ends)}.{unlimited}"
+
+    @property
+    def unlimited(self) -> str:
+        """That no limit of deflection bounds the search, and how far the best sink; empty if one does."""
+        if self.deflection_limit is not None or not self.front.size:
+            return ""
+        sinks = _span(DEFLECTION, self.deflections[self.front])
+        return f"No limit of rail deflection is set: with the best designs the rail sinks {sinks}."
+
+    @property
+    def explained(self) -> str:
+        """What it means that no other beats a design, in words; empty if none complies."""
+        if not self.front.size:
+            return ""
+        if len(self.objectives) == 1:
+            return f"No other beats a design: none that was tried is better in {spoken(self.objectives[0])}."
+        names = " and ".join(map(spoken, self.objectives))
+        return (
+            f"No other beats a design: none that was tried is as good in {names}, and better in one of them."
+        )
 
     @property
     def summary(self) -> str:
@@ -463,6 +490,7 @@ class _Trail:
         self.parts: list[BatchSolution] = []
         self._values: list[RealArray] = []
         self._slacks: list[RealArray] = []
+        self._deflections: list[RealArray] = []
         self._places: list[RealArray] = []
 
     def add(self, many: BatchSolution, places: RealArray) -> tuple[RealArray, RealArray]:
@@ -471,6 +499,7 @@ class _Trail:
         self._places.append(places)
         self._values.append(self.sought.values(many, self.space.prices(places)))
         self._slacks.append(self.sought.required.slacks(many))
+        self._deflections.append(self.sought.required.deflection(many))
         return self.sought.minimised(self._values[-1]), -self._slacks[-1].min(axis=-1, keepdims=True)
 
     def found(self, stopped: bool = False) -> FoundDesigns:
@@ -494,6 +523,8 @@ class _Trail:
             seed=self.seed,
             generations=len(self.parts),
             stopped=stopped,
+            deflections=np.concatenate(self._deflections),
+            deflection_limit=self.sought.required.deflection_limit,
         )
 
 

@@ -21,7 +21,7 @@ from scipy.stats import sobol_indices
 from trackig_core.arrays import RealArray
 from trackig_core.bands import BAND_LABELS
 from trackig_core.decide.numbers import changeable_numbers
-from trackig_core.decide.requirements import MARGIN, UNITS, WORDS, Requirements
+from trackig_core.decide.requirements import DEFLECTION, MARGIN, UNITS, WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
 from trackig_core.decide.tolerances import (
     CONFIDENCE,
@@ -30,7 +30,7 @@ from trackig_core.decide.tolerances import (
     drawn_shares,
     make_factors,
 )
-from trackig_core.decide.words import percent, spoken
+from trackig_core.decide.words import change_words, percent, spoken
 from trackig_core.frequency_domain.batch import solve_many
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
@@ -118,11 +118,13 @@ class Sensitivity:
         figure = next(iter(self.figures))
         first, given = self.first(figure)
         down, up = self.differences[figure][self.fields.index(first)]
-        change = 100 * self.changes[first]
+        share, unit = 100 * self.changes[first], UNITS[figure]
+        if figure == DEFLECTION:
+            down, up, unit = 1e3 * down, 1e3 * up, "mm"
         rest = given and f" More than the track's own numbers does {spoken(given)}."
         return (
-            f"The {WORDS[figure]} depends most on {spoken(first)}: {change:.3g} % less changes it by "
-            f"{down:+.2f} {UNITS[figure]}, {change:.3g} % more by {up:+.2f} {UNITS[figure]}.{rest}"
+            f"The {WORDS[figure]} depends most on {spoken(first)}: {share:.3g} % less changes it by "
+            f"{change_words(down)} {unit}, {share:.3g} % more by {change_words(up)} {unit}.{rest}"
         )
 
 

@@ -1,5 +1,7 @@
 """Numbers of a design in words that can be read aloud: SI units, with prefixes where figures are long."""
 
+import math
+
 from trackig_core.decide.requirements import DEFLECTION, UNITS
 from trackig_core.track.fields import GIVEN, RANGES
 
@@ -62,6 +64,30 @@ def in_unit(name: str, value: float) -> str:
     if name in UNITS:
         return f"{value:.1f} {UNITS[name]}"
     return amount(name, value) if name in RANGES else f"{value:.4g}"
+
+
+def change_words(value: float) -> str:
+    """Return a change with its sign and two figures, however small; floating-point dust is no change.
+
+    Parameters
+    ----------
+    value : float
+        Any change, in the unit that is shown.
+
+    Returns
+    -------
+    str
+        Such as ``"+0.34"``, ``"-12"``, ``"+0.0021"`` or ``"0"``.
+    """
+    if abs(value) < DUST:
+        return "0"
+    rounded = float(f"{value:.1e}")
+    decimals = max(0, 1 - math.floor(math.log10(abs(rounded))))
+    return f"{rounded:+.{decimals}f}"
+
+
+DUST = 1e-6
+"""Change [dB, mm, Hz] below which a figure is taken to stay as it is."""
 
 
 def sentence(text: str) -> str:

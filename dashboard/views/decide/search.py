@@ -1,5 +1,7 @@
 """Designs that comply, and the best of them."""
 
+import math
+
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
@@ -11,7 +13,7 @@ from dashboard.fields import ASKED_FIELDS
 from dashboard.figures.decide import CloudFigure
 from dashboard.figures.legends import with_legend
 from dashboard.session.answers import FIGURE_WORDS, field_label, with_unit
-from dashboard.views.decide.asked import BOX, BUTTON, Asked, beside, said
+from dashboard.views.decide.asked import BOX, BUTTON, SMALL_BUTTON, Asked, beside, said
 from dashboard.views.decide.inputs import (
     NumberBox,
     choice,
@@ -24,6 +26,7 @@ from dashboard.views.decide.inputs import (
 )
 from trackig_core.decide.words import sentence
 from trackig_core.names import LONGEST_NAME
+from trackig_core.track.fields import DEFAULT_WHEEL_LOAD
 
 
 class Search(Asked):
@@ -76,6 +79,17 @@ class Search(Asked):
         self.deflection = NumberBox(
             "Rail sinks at most, mm (0: as specified)", 0.0, "mm", most=100.0, width=290
         )
+        self.limit = pmui.Button(
+            label="No more than this design", icon="vertical_align_top", on_click=self._limit, **SMALL_BUTTON
+        )
+        self.unlimited = pn.Row(
+            pn.pane.HTML(said(UNLIMITED, "note"), stylesheets=[theme.ANSWER_CSS], margin=(0, 8, 0, 12)),
+            self.limit,
+            margin=0,
+        )
+        self.explained = pn.pane.HTML(
+            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
+        )
         self.seed = seed_box()
         self.button.label = "Find designs"
         self.take = pmui.Button(
@@ -94,6 +108,10 @@ class Search(Asked):
         for figure in (self.cloud.objectives, self.cloud.fields):
             exchange.on_key(figure.name, self._key)
         self.against.param.watch(self._offer_prices, "value")
+        self.deflection.param.watch(self._warn, "value")
+        self.assessment.param.watch(self._warn, "specification")
+        self._offer_prices()
+        self._warn()
         self.inquiry.param.watch(NextTick(self._grow), "so_far")
 
     def offer(self, *_):
@@ -123,6 +141,22 @@ class Search(Asked):
     def _offer_prices(self, *_):
         for box in self.prices.values():
             box.visible = self.against.value == "cost"
+        words = next(words for words, name in self.against.options.items() if name == self.against.value)
+        self.explained.object = said(EXPLAINED.format(words), "note")
+
+    def _warn(self, *_):
+        """Say that a search without a limit of deflection runs to soft corners."""
+        specification = self.assessment.in_force
+        limited = specification is not None and specification.rail_deflection_limit is not None
+        self.unlimited.visible = not limited and self.deflection.value.strip() in ("", "0")
+
+    def _limit(self, *_):
+        """Limit the deflection to that of the current design."""
+        specification = self.assessment.in_force
+        load = DEFAULT_WHEEL_LOAD if specification is None else specification.wheel_load
+        sinks = tig.static_response(self.assessment.current.design, load).rail_deflection
+        # up, so that the design itself keeps it
+        self.deflection.value = formats.quantity_text(math.ceil(1e6 * sinks) / 1e3)
 
     def _grow(self):
         if self.inquiry.so_far is not None:
@@ -163,7 +197,7 @@ class Search(Asked):
             else:
                 by = f"misses the limit at {found.in_the_way} Hz by {miss:.1f} dB"
             return f"None of {tried} complies; the closest {by}."
-        return f"{found.summary}."
+        return " ".join(filter(None, (f"{found.summary}.", found.unlimited)))
 
     def _choose(self, row):
         self._chosen = row
@@ -207,15 +241,27 @@ class Search(Asked):
                 self.stop,
                 margin=(0, 12),
             ),
+            self.unlimited,
             self.sentence,
             self.answered_row,
             pn.FlexBox(self.take, self.pin_name, self.pin, margin=(0, 12)),
             self.parts,
+            self.explained,
             beside(*pictures),
             sizing_mode="stretch_width",
             margin=0,
         )
 
+
+UNLIMITED = (
+    "No limit of rail deflection is set. Softer always isolates more, so that the search runs to the softest "
+    "corner of what is free; set a limit in the box above, or in the tab Specification."
+)
+
+EXPLAINED = (
+    "“No other beats it”: none of the designs that were tried has as much margin and as little {}, and is "
+    "better in one of the two. Which of these is best is for you to weigh."
+)
 
 CATALOGUED = {
     "rail": "rail sections",
@@ -268,6 +314,8 @@ def chosen_words(found, row):
         words, scale = _axis(name)
         quantity, _, unit = words.partition(", ")
         does.append(f"{quantity.lower()} {scale * value:.4g} {unit}".rstrip())
+    if "deflection" not in found.objectives:
+        does.append(f"rail deflection {formats.millimetre_text(found.deflections[row])}")
     design = found.many.design(row)
     numbers = [name for name in found.free if name in ASKED_FIELDS]
     parts = [f"{field_label(name)} {with_unit(name, design.value(name))}" for name in numbers]

@@ -76,7 +76,7 @@ class WhatMatters(Asked):
         rest = given and f" More than the track's own numbers does the {ASKED_FIELDS[given].marked.lower()}."
         return (
             f"The {quantity.lower()} depends most on the {label}: {change} less changes it "
-            f"by {formats.signed_text(less)} {unit}, {change} more by {formats.signed_text(more)} {unit}."
+            f"by {formats.change_text(less)} {unit}, {change} more by {formats.change_text(more)} {unit}."
             f"{rest}"
         )
 

@@ -11,6 +11,7 @@ from tests.core.frequency_domain.test_batch import CURVE
 from trackig_core.decide.production import tolerance
 from trackig_core.decide.sensitivities import indices_of, sensitivity, sobol
 from trackig_core.decide.tolerances import Normal, Uniform, drawn_shares, make_factors
+from trackig_core.decide.words import change_words
 from trackig_core.track.fields import GIVEN
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
@@ -261,6 +262,24 @@ def test_differences_are_those_of_exact_solutions(specification):
     assert found.first("loaded_track") == ("fastener_spacing", "wheel_mass")
     assert sensitivity(BLOCK, changes={"wheel_mass": 0.1}).first("loaded_track") == ("wheel_mass", "")
     assert found.to_dataframe().shape == (16, 2 + 5 + 21)
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        *((0.0, "0"), (-3e-17, "0"), (0.34, "+0.34"), (-0.0999, "-0.10"), (0.00213, "+0.0021")),
+        *((-12.4, "-12"), (9.96, "+10"), (123.4, "+120"), (1.0, "+1.0"), (5e-6, "+0.0000050")),
+    ],
+)
+def test_a_change_has_two_figures_however_small(value, words):
+    assert change_words(value) == words
+
+
+def test_a_small_change_of_deflection_is_told_in_millimetres():
+    found = sensitivity(BLOCK, changes={"pad_stiffness": 0.01})
+    less, more = 1e3 * found.differences["deflection"][0]
+    assert 0 < less < 0.05
+    assert f"by {less:+.2g} mm, 1 % more by {more:+.2g} mm." in str(found)
 
 
 def test_a_measured_curve_changes_as_a_whole():

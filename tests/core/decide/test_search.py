@@ -86,6 +86,35 @@ def test_one_design_is_spoken_of_as_one(found):
     )
 
 
+def test_a_search_without_a_limit_of_deflection_says_so_and_what_the_best_sink(specification, found):
+    assert found.deflection_limit == 2e-3
+    assert found.unlimited == ""
+    free = find(BLOCK, specification, ["boot_stiffness"], population=8, generations=3)
+    load = specification.wheel_load
+    for row in free.front[:3]:
+        expected = tig.static_response(free.many.design(int(row)), load).rail_deflection
+        assert free.deflections[row] == pytest.approx(expected, rel=1e-6)
+    least, most = (1e3 * end(free.deflections[free.front]) for end in (np.min, np.max))
+    span = f"from {least:.2f} mm to {most:.2f} mm" if f"{least:.2f}" != f"{most:.2f}" else f"{least:.2f} mm"
+    assert str(free).endswith(
+        f" No limit of rail deflection is set: with the best designs the rail sinks {span}."
+    )
+
+
+def test_it_is_explained_what_no_other_beats(found):
+    assert found.explained == (
+        "No other beats a design: none that was tried is as good in margin and deflection, and better in one "
+        "of them."
+    )
+    alone = dataclasses.replace(found, objectives=("margin",), values=found.values[:, :1])
+    assert alone.explained.endswith("none that was tried is better in margin.")
+    for row in found.front:
+        margin, sinks = found.values[row]
+        others = found.values[found.complies]
+        better = (others[:, 0] >= margin) & (others[:, 1] <= sinks)
+        assert not (better & ((others[:, 0] > margin) | (others[:, 1] < sinks))).any()
+
+
 def test_nothing_complies_and_it_says_what_stands_in_the_way(specification):
     hopeless = tig.Specification([(5.0, -20.0), (63.0, 50.0)])
     found = find(BLOCK, hopeless, ["boot_stiffness"], population=8, generations=3)

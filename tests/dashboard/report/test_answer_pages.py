@@ -7,6 +7,7 @@ import re
 import pytest
 
 import trackig_core as tig
+from dashboard import formats
 from dashboard.report.answer_pages import answer_page, question_lines
 from dashboard.report.html_report import html_report
 
@@ -68,7 +69,7 @@ def test_figures_of_a_page_are_the_library_s():
     less, more = result.differences["margin"][result.fields.index("block_mass")]
     row = next(row for row in table.rows if row[0].startswith("block mass"))
     assert row[0] == "block mass ∓ 20 %"
-    assert row[1] == f"{less:+.2f} / {more:+.2f}".replace("-", "−")
+    assert row[1] == f"{formats.change_text(less)} / {formats.change_text(more)}"
     answer, result = asked("find")
     (table,) = answer_page(answer, result).tables
     assert "Rail" in table.heads
@@ -93,9 +94,9 @@ def test_numbers_of_vehicle_and_ground_are_named_as_elsewhere():
         _, lines = question_lines(answer)
         assert "ground stiffness 3200 kN/mm" in lines[0]
         assert any("ground stiffness" in line.lower() for line in lines[3:])
-    assert pages["range"].tables[0].rows[0][0] == "Ground stiffness"
-    assert pages["sensitivity"].tables[0].rows[0][0] == "ground stiffness ∓ 10 %"
-    assert pages["tolerance"].tables[0].rows[0][0] == "Ground stiffness"
+    assert pages["range"].tables[0].rows[0][0] == "Ground stiffness (site)"
+    assert pages["sensitivity"].tables[0].rows[0][0] == "ground stiffness (site) ∓ 10 %"
+    assert pages["tolerance"].tables[0].rows[0][0] == "Ground stiffness (site)"
     assert "Bogie mass per wheel, kg" in str(pages["map"].plot)
     assert pages["find"].tables[0].heads[:2] == ("Bogie mass per wheel, kg", "Ground stiffness, kN/mm")
 

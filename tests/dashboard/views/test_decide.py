@@ -8,10 +8,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from bokeh.models import ColorBar
+from bokeh.palettes import Viridis256
 
 import trackig_core as tig
 from dashboard.compute.feasibility import Feasibility, where
 from dashboard.fields import FIELDS
+from dashboard.formats import millimetre_text
 from dashboard.persistence.snapshot import SessionSnapshot
 from dashboard.session.assessment import Assessment
 from dashboard.session.inputs import DesignInputs, GainDefinition
@@ -21,6 +24,7 @@ from dashboard.session.results import Outcome
 from dashboard.session.shelf import Shelf
 from dashboard.views.decide.asked import NO_SPECIFICATION
 from dashboard.views.decide.inputs import NumberBox, percent_box, seed_box
+from dashboard.views.decide.search import chosen_words
 from dashboard.views.decide.tab import Decide
 from tests.core.decide.test_search import CATALOGUE
 from tests.waiting import on_a_loop
@@ -78,6 +82,23 @@ def test_without_a_specification_it_says_what_to_do(summary, make_pictures):
     assert session.view.map.inquiry.asked is None
     # what matters can be said all the same
     assert "rail deflection depends most on" in session.view.what_matters.sentence.object
+
+
+def test_nothing_is_held_against_limits_of_which_it_is_open_what_they_are(session):
+    session.do(session.view.look, active=True)
+    asked = tig.Specification.given([(63, 4.0)], set_aside=("630 Hz",))
+    session.do(session.assessment.param.update, specification=asked)
+    words = "Answer first, in the tab Specification: no limit is below 0 dB"
+    assert words in session.view.how_far.sentence.object
+    assert session.view.how_far.table.object == ""
+    for each in (session.view.map, session.view.how_sure, session.view.search):
+        session.do(each.ask)
+        assert words in each.sentence.object
+        assert each.inquiry.asked is None
+    assert "Governing margin" not in session.view.what_matters.sentence.object
+    session.do(session.assessment.param.update, specification=asked.kept())
+    assert "The design" in session.view.how_far.sentence.object
+    assert "1 not judged, of no band from 5 to 500 Hz: 630 Hz" in session.view.how_far.sentence.object
 
 
 def test_ranges_are_the_library_s_in_the_units_of_the_sliders(session):
@@ -199,6 +220,47 @@ def test_a_search_is_drawn_taken_and_pinned(session):
     assert session.pins.pinned[0].name == "Best <b>"
     assert session.inputs.boot_stiffness == pytest.approx(expected.boot_stiffness / 1e6, rel=1e-5)
     assert session.pins.pinned[0].design == session.inputs.to_design()
+
+
+def test_a_search_without_a_limit_of_deflection_is_warned_of_and_can_be_limited(session):
+    view = session.view.search
+    assert not view.unlimited.visible, "the specification limits it"
+    session.do(session.assessment.param.update, specification=tig.Specification([(63, -4.0)]))
+    assert view.unlimited.visible
+    session.do(view.limit.param.trigger, "clicks")
+    assert not view.unlimited.visible
+    sinks = 1e3 * tig.static_response(BLOCK).rail_deflection
+    assert sinks <= float(view.deflection.value) < sinks + 0.001
+    assert view.settings()["max_deflection"] == pytest.approx(sinks / 1e3, abs=1e-6)
+    view.deflection.value = "0"
+    assert view.unlimited.visible
+    view.against.value = "block_mass"
+    assert "as much margin and as little block mass" in view.explained.object
+    session.do(view.ask)
+    assert "No limit of rail deflection is set: with the best designs the rail sinks" in view.sentence.object
+    found = view.inquiry.result
+    row = int(found.front[0])
+    assert f"rail deflection {millimetre_text(found.deflections[row])}" in chosen_words(found, row)
+
+
+def test_colours_say_which_end_is_the_good_one(session):
+    view = session.view.map
+    session.do(view.ask)
+    bar = view.map.model.select_one(ColorBar)
+    assert bar.title == "Governing margin, dB; high, bright: better"
+    assert tuple(bar.color_mapper.palette) == Viridis256
+    session.do(view.figure.param.update, value="deflection")
+    bar = view.map.model.select_one(ColorBar)
+    assert bar.title == "Rail deflection, mm; low, bright: better"
+    assert tuple(bar.color_mapper.palette) == Viridis256[::-1]
+    session.do(view.figure.param.update, value="loaded_track")
+    assert view.map.model.select_one(ColorBar).title.endswith("neither end is better")
+    changes = session.view.what_matters.changes.model.select_one(ColorBar)
+    assert changes.title == "dB, blue: better"
+    low, high = (changes.color_mapper.palette[end][:7] for end in (0, -1))
+    red, blue = ([int(each[at : at + 2], 16) for at in (1, 5)] for each in (high, low))
+    assert red[0] > red[1], "more vibration is red"
+    assert blue[0] < blue[1], "less vibration is blue"
 
 
 def test_what_vehicle_and_site_give_is_free_only_when_asked_for(session):
