@@ -171,7 +171,7 @@ class ReceivedLevelFigure(DesignsFigure):
     def __init__(self):
         super().__init__(
             "received_levels",
-            "Received level, dB",
+            "Received level, dB re as the source",
             "Level of the source with the designs per one-third-octave band",
             (0.0, 100.0),
         )

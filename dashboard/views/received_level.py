@@ -37,9 +37,10 @@ class ReceivedLevel(Tab):
     def __init__(self, assessment, pins, exchange):
         super().__init__()
         self._assessment, self._pins = assessment, pins
+        self._own = REFERENCE
         self.base = pn.widgets.Select(
             label="Difference from",
-            options={CURRENT_NAME: CURRENT},
+            options={REFERENCE_NAME: REFERENCE, CURRENT_NAME: CURRENT},
             width=240,
             margin=(4, 12, 6, 12),
             stylesheets=[theme.SELECT_CSS],
@@ -55,14 +56,43 @@ class ReceivedLevel(Tab):
         self.base.param.watch(self._choose, "value")
         # figures are models of Bokeh, which may change only when the document may
         self._show_later = NextTick(self._show)
-        assessment.param.watch(self._show_later, ["results", "base"])
+        assessment.param.watch(self._show_later, ["results", "base", "preset"])
+        pins.param.watch(self._follow_base, "base")
+        self._follow_base()
+
+    def _follow_base(self, *_):
+        """Compare with the base that was chosen elsewhere, as long as there is one."""
+        if self._pins.base is not None:
+            self._own = None
 
     def _offer(self):
-        options = {CURRENT_NAME: CURRENT} | {pin.name: pin.key for pin in self._pins.pinned}
-        self.base.param.update(options=options, value=self._pins.base or CURRENT)
+        preset = self._assessment.preset
+        options = {REFERENCE_NAME: REFERENCE, CURRENT_NAME: CURRENT}
+        options |= {} if preset is None else {f"preset: {preset.name}": PRESET}
+        options |= {pin.name: pin.key for pin in self._pins.pinned}
+        if self._own not in options.values():
+            self._own = None
+        value = (self._pins.base or CURRENT) if self._own is None else self._own
+        self.base.param.update(options=options, value=value)
 
     def _choose(self, event):
+        if event.new in (REFERENCE, PRESET):
+            self._own = event.new
+            self._show_later()
+            return
+        was, self._own = self._own, None
         self._pins.choose_base(event.new or None)
+        if was is not None:
+            self._show_later()
+
+    @property
+    def _compared(self):
+        """What differences are taken from: its name, and its level or None."""
+        if self._own == REFERENCE:
+            source = self._assessment.source
+            return REFERENCE_NAME, None if source is None else reference_level(source)
+        base = self._assessment.preset if self._own == PRESET else self._assessment.base
+        return base.name, base.level
 
     def refresh(self):
         """Show what has changed while nobody looked."""
@@ -75,9 +105,7 @@ class ReceivedLevel(Tab):
         if not self.in_sight:
             return
         self._offer()
-        self.table.object = levels_html(
-            self._assessment.shown, self._assessment.source, self._assessment.base
-        )
+        self.table.object = levels_html(self._assessment.shown, self._assessment.source, *self._compared)
         received = [each for each in self._assessment.shown if each.level is not None]
         self.editor.grid.designs = [_design(each) for each in received]
         self.plot.visible = bool(received)
@@ -94,12 +122,25 @@ class ReceivedLevel(Tab):
         )
 
 
-WORDS = "energies of the bands summed, as they are and A-weighted (IEC 61672-1)"
+REFERENCE, PRESET = -1, -2
+"""Stand for the reference track and for the preset where keys of pins are chosen from, which count from 1."""
+
+REFERENCE_NAME = "reference\N{NO-BREAK SPACE}track"
+"""What the track of the source is called; no pin can be called so, since names hold no such space."""
+
+WORDS = (
+    "energies of the bands summed, as they are and A-weighted (IEC 61672-1); dB re what the source's dB are"
+)
 SOURCE_WORDS = "level per band with the reference track; only bands that have one are summed"
 NONE_GIVEN = "No source yet: type one below, paste it, or open a CSV file."
 
 
-def levels_html(results, source, base):
+def reference_level(source):
+    """Return the level of a source on the reference track (trackig_core.TrackLevel)."""
+    return source.with_track(np.zeros_like(source.levels))
+
+
+def levels_html(results, source, name, base):
     """Return the levels of a source with designs as HTML, whatever characters their names are made of.
 
     Parameters
@@ -108,20 +149,21 @@ def levels_html(results, source, base):
         Designs with a solution.
     source : trackig_core.SourceSpectrum or None
         The source.
-    base : DesignResult
-        The design from which differences are taken.
+    name : str
+        What differences are taken from.
+    base : trackig_core.TrackLevel or None
+        Level with that; None while there is none.
     """
-    if source is None or base.level is None:
+    if source is None or base is None:
         return f"<p>{NONE_GIVEN}</p>"
-    reference = source.with_track(np.zeros_like(base.levels))
-    rows = [("", "Reference track", reference)]
+    rows = [("", "Reference track", reference_level(source))]
     rows += [(swatch_svg(each.colour, each.dash), html.escape(each.name), each.level) for each in results]
-    name = html.escape(base.name)
+    name = html.escape(name)
     head = "".join(
         f'<th scope="col">{words}</th>'
         for words in ("Design", "Level, dB", "Level, dB(A)", f"re {name}, dB", f"re {name}, dB(A)")
     )
-    body = "".join(_row(mark, words, level, base.level) for mark, words, level in rows)
+    body = "".join(_row(mark, words, level, base) for mark, words, level in rows)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 

@@ -288,6 +288,46 @@ def test_levels_stand_with_their_difference_from_the_base(session, level):
     assert rows[2][2:] == ["0.0", "0.0"]
 
 
+def test_differences_are_from_the_reference_track_until_another_is_chosen(session, level):
+    source = tig.SourceSpectrum([(31.5, 60.0), (63, 70.5), (125, 65.0)])
+    session.assessment.source = source
+    hand = source.with_track(tig.solve(tig.PRESETS["booted-block-low-mass"]).insertion_gain)
+    reference = source.with_track(np.zeros(21))
+
+    def shown():
+        rows = [re.findall(r"<td>([^<]*)</td>", row) for row in level.table.object.split("<tr>")[2:]]
+        return [row[3] for row in rows]
+
+    def text(difference):
+        return f"{difference:+.1f}".replace("-", "−").replace("+0.0", "0.0")
+
+    assert "re reference\N{NO-BREAK SPACE}track, dB(A)" in level.table.object
+    assert shown() == ["0.0", text(hand.a_weighted - reference.a_weighted)]
+    level.base.value = 0
+    assert "re This design, dB(A)" in level.table.object
+    assert shown() == [text(reference.a_weighted - hand.a_weighted), "0.0"]
+    pin = session.pin("slab-track", "Slab")
+    session.pins.choose_base(pin.key)
+    assert level.base.value == pin.key
+    assert "re Slab, dB(A)" in level.table.object
+    level.base.value = level.base.options["reference\N{NO-BREAK SPACE}track"]
+    assert "re reference\N{NO-BREAK SPACE}track, dB(A)" in level.table.object
+    assert session.pins.base == pin.key, "other tabs keep theirs"
+    assert level.figure.model.yaxis.axis_label == "Received level, dB re as the source"
+
+
+def test_the_preset_from_which_the_design_departs_can_be_compared_with(session, level, summary):
+    session.assessment.source = tig.SourceSpectrum([(63, 70.5)])
+    session.outcome.preset_summary = summary("booted-sleeper")
+    name = next(name for name in level.base.options if name.startswith("preset: "))
+    level.base.value = level.base.options[name]
+    assert f"re {name.removeprefix('preset: ')}, dB" in level.table.object
+    expected = session.assessment.preset.level.relative_to(session.assessment.current.level).a_weighted
+    assert f"{-expected:+.1f}".replace("-", "−") in level.table.object
+    session.outcome.preset_summary = None
+    assert level.base.value == 0
+
+
 def test_received_levels_are_drawn_with_the_reference_track(session, level):
     assert not level.plot.visible
     session.pin("slab-track", "Slab")
