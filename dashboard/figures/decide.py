@@ -107,7 +107,7 @@ class ChangeFigure:
             fill_color={"field": "change", "transform": self._colours},
             line_color=None,
         )
-        plot.add_layout(ColorBar(color_mapper=self._colours, title="dB, blue: better", width=12), "right")
+        plot.add_layout(ColorBar(color_mapper=self._colours, title="dB; blue: better", width=12), "right")
         plot.add_tools(
             HoverTool(
                 renderers=[cells],

@@ -47,7 +47,8 @@ def scale_title(name, words):
     words : str
         What it is called, with its unit.
     """
-    return f"{words}; {BETTER[name]}, bright: better" if name in BETTER else f"{words}; neither end is better"
+    good = f"{BETTER[name]}, bright: better" if name in BETTER else "neither end is better"
+    return f"{words}\n{good}"
 
 
 class KeepError(ValueError):

@@ -185,6 +185,10 @@ class BandEditor(Viewer):
             shown = words if each is (pane or self.message) else ""
             each.object = f'<div role="{role}">{html.escape(shown)}</div>'
 
+    def clear_message(self):
+        """Take away what was said of a table that was read."""
+        self._tell("")
+
     def _show(self, *_):
         levels = dict(self.table.points) if self.table is not None else {}
         self.grid.values = [f"{levels[each]:.10g}" if each in levels else "" for each in NOMINAL]

@@ -84,9 +84,11 @@ class SpecificationView(Tab):
 
     def _turn(self, *_):
         self._assessment.specification = self._assessment.specification.turned()
+        self.editor.clear_message()
 
     def _keep(self, *_):
         self._assessment.specification = self._assessment.specification.kept()
+        self.editor.clear_message()
 
     def build(self):
         """Return what is put on the page."""

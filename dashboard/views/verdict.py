@@ -50,7 +50,8 @@ def badge(verdict):
     sign = f'<b aria-hidden="true">{sign}</b>'
     words = f'<span class="{kind}"><span class="part">{sign} {judged}</span></span>'
     rest = html.escape(verdict.not_judged_words)
-    return f'{words}<span class="open">; {rest}</span>' if rest else words
+    # one element, since each has a column of its own where verdicts stand below each other
+    return f'<span>{words}; <span class="open">{rest}</span></span>' if rest else words
 
 
 def verdicts_html(results, specification=None):

@@ -206,7 +206,7 @@ def test_numbers_of_the_ground_are_offered_and_answered(open_dashboard):
     page.wait_for_function(
         """expected => {
             const {field, change} = Bokeh.documents[0].get_model_by_name("changes").data
-            const drawn = Array.from(change).filter((_, place) => field[place] == "Ground stiffness")
+            const drawn = Array.from(change).filter((_, place) => field[place] == "Ground stiffness *")
             return drawn.length == expected.length
                 && drawn.every((each, band) => Math.abs(each - expected[band]) < 1e-6)
         }""",

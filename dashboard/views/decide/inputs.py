@@ -63,7 +63,7 @@ class NumberBox(pmui.TextInput):
 
 def percent_box(name, value):
     """Return a box for a share of a field [%]."""
-    return NumberBox(f"{ASKED_FIELDS[name].marked}, ± %", value, "%", most=MOST_CHANGE, width=190)
+    return NumberBox(f"{ASKED_FIELDS[name].label}, ± %", value, "%", most=MOST_CHANGE, width=190)
 
 
 MOST_CHANGE = 90.0

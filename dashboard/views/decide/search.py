@@ -80,12 +80,18 @@ class Search(Asked):
             "Rail sinks at most, mm (0: as specified)", 0.0, "mm", most=100.0, width=290
         )
         self.limit = pmui.Button(
-            label="No more than this design", icon="vertical_align_top", on_click=self._limit, **SMALL_BUTTON
+            label="Limit it to what this design sinks",
+            icon="vertical_align_top",
+            on_click=self._limit,
+            **SMALL_BUTTON,
         )
-        self.unlimited = pn.Row(
-            pn.pane.HTML(said(UNLIMITED, "note"), stylesheets=[theme.ANSWER_CSS], margin=(0, 8, 0, 12)),
+        self.unlimited = pn.Column(
+            pn.pane.HTML(
+                said(UNLIMITED, "note"), stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=0
+            ),
             self.limit,
-            margin=0,
+            sizing_mode="stretch_width",
+            margin=(0, 12),
         )
         self.explained = pn.pane.HTML(
             "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)

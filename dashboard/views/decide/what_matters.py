@@ -57,13 +57,13 @@ class WhatMatters(Asked):
         options = {FIGURE_WORDS[name][0]: name for name in result.figures}
         if list(self.figure.options) != list(options):
             self.figure.param.update(options=options, value=next(iter(options.values())))
-        labels = [ASKED_FIELDS[name].marked for name in result.fields]
+        labels = list(map(starred, result.fields))
         self.changes.show(labels, result.bands[:, 1])
         ranked = result.ranked(self.figure.value)
         rows = [result.fields.index(name) for name in ranked]
         words, scale = FIGURE_WORDS[self.figure.value]
         changes = result.differences[self.figure.value][rows] * scale
-        self.tornado.show([ASKED_FIELDS[name].marked for name in ranked], changes, f"Change of: {words}")
+        self.tornado.show(list(map(starred, ranked)), changes, f"Change of: {words}")
 
     def words(self, result):
         """Return the answer in one sentence."""
@@ -73,7 +73,8 @@ class WhatMatters(Asked):
         quantity, _, unit = words.partition(", ")
         less, more = scale * result.differences[first][result.fields.index(name)]
         change, label = f"{100 * result.changes[name]:.3g} %", ASKED_FIELDS[name].marked.lower()
-        rest = given and f" More than the track's own numbers does the {ASKED_FIELDS[given].marked.lower()}."
+        more_so = given and ASKED_FIELDS[given].marked.lower()
+        rest = given and f" It depends more on the {more_so}, which no supplier of a track chooses."
         return (
             f"The {quantity.lower()} depends most on the {label}: {change} less changes it "
             f"by {formats.change_text(less)} {unit}, {change} more by {formats.change_text(more)} {unit}."
@@ -92,4 +93,13 @@ class WhatMatters(Asked):
         )
 
 
-WHAT_MATTERS = "what changes when a number does; the map shows the change of insertion gain when it is more"
+def starred(name):
+    """Return what a number is called beside a picture, with a star if it is not the track's own."""
+    field = ASKED_FIELDS[name]
+    return f"{field.label} *" if field.whose else field.label
+
+
+WHAT_MATTERS = (
+    "what changes when a number does; the map shows the change of insertion gain when it is more; "
+    "* is the vehicle's or the site's"
+)

@@ -26,6 +26,7 @@ from dashboard.views.decide.asked import NO_SPECIFICATION
 from dashboard.views.decide.inputs import NumberBox, percent_box, seed_box
 from dashboard.views.decide.search import chosen_words
 from dashboard.views.decide.tab import Decide
+from dashboard.views.decide.what_matters import starred
 from tests.core.decide.test_search import CATALOGUE
 from tests.waiting import on_a_loop
 
@@ -138,13 +139,16 @@ def test_what_matters_is_drawn_as_computed(session):
     expected = tig.decide.sensitivity(BLOCK, LIMITS, changes=dict.fromkeys(FIELDS, 0.1))
     cells = view.changes.cells.data
     for row, name in enumerate(FIELDS):
-        mine = [each == FIELDS[name].marked for each in cells["field"]]
+        mine = [each == starred(name) for each in cells["field"]]
         np.testing.assert_array_equal(np.array(cells["change"])[mine], expected.bands[row, 1])
     first = expected.ranked("margin")[0]
-    assert view.tornado.bars.data["field"][0] == FIELDS[first].marked
+    assert view.tornado.bars.data["field"][0] == starred(first)
+    assert (starred("wheel_mass"), starred("block_mass")) == ("Unsprung wheel mass *", "Block mass")
     own, given = expected.first("margin")
     assert f"depends most on the {FIELDS[own].label.lower()}: 10 % less" in view.sentence.object
-    assert (given == "wheel_mass") == ("does the unsprung wheel mass (vehicle)." in view.sentence.object)
+    assert (given == "wheel_mass") == (
+        "more on the unsprung wheel mass (vehicle), which" in view.sentence.object
+    )
     assert (
         view.tornado.bars.data["less"][0] == expected.differences["margin"][expected.fields.index(first), 0]
     )
@@ -247,16 +251,16 @@ def test_colours_say_which_end_is_the_good_one(session):
     view = session.view.map
     session.do(view.ask)
     bar = view.map.model.select_one(ColorBar)
-    assert bar.title == "Governing margin, dB; high, bright: better"
+    assert bar.title == "Governing margin, dB\nhigh, bright: better"
     assert tuple(bar.color_mapper.palette) == Viridis256
     session.do(view.figure.param.update, value="deflection")
     bar = view.map.model.select_one(ColorBar)
-    assert bar.title == "Rail deflection, mm; low, bright: better"
+    assert bar.title == "Rail deflection, mm\nlow, bright: better"
     assert tuple(bar.color_mapper.palette) == Viridis256[::-1]
     session.do(view.figure.param.update, value="loaded_track")
     assert view.map.model.select_one(ColorBar).title.endswith("neither end is better")
     changes = session.view.what_matters.changes.model.select_one(ColorBar)
-    assert changes.title == "dB, blue: better"
+    assert changes.title == "dB; blue: better"
     low, high = (changes.color_mapper.palette[end][:7] for end in (0, -1))
     red, blue = ([int(each[at : at + 2], 16) for at in (1, 5)] for each in (high, low))
     assert red[0] > red[1], "more vibration is red"
@@ -607,7 +611,7 @@ def test_what_matters_about_vehicle_and_ground_is_the_library_s(surrounded):
     expected = tig.decide.sensitivity(SPRUNG, LIMITS, reference="stiff")
     assert view.inquiry.result.fields == expected.fields
     np.testing.assert_array_equal(view.inquiry.result.bands, expected.bands)
-    assert "Ground stiffness (site)" in view.changes.cells.data["field"]
+    assert "Ground stiffness *" in view.changes.cells.data["field"]
 
 
 def test_a_map_of_a_ground_takes_its_designs(surrounded, monkeypatch):

@@ -161,6 +161,7 @@ def test_limits_that_look_like_insertion_loss_are_asked_about(session, view, exc
     turn.param.trigger("clicks")
     assert limits(session) == {63.0: -10.0, 80.0: -12.0}
     assert "No verdict" not in view.verdict.object
+    assert "answer the question" not in view.editor.message.object
     assert not view.question.visible
     assert not session.assessment.results[0].verdict.complies
     type_in(view, "63", "10")
