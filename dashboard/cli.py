@@ -19,6 +19,7 @@ from pathlib import Path
 
 import trackig_core as tig
 from dashboard import cli_decide, formats
+from dashboard.cli_numbers import field_number
 from dashboard.server.command import ServeError, add_arguments, serve
 from dashboard.session.bands import WIDE, bands_text, gain_in
 from dashboard.session.heading import Heading
@@ -35,7 +36,7 @@ from trackig_core.solver import FIDELITIES
 from trackig_core.study import studies
 from trackig_core.track.design import RANGES, measured_curves
 from trackig_core.track.measured_tables import UNITS, read_stiffness
-from trackig_core.typed_numbers import NumberError, read_number
+from trackig_core.typed_numbers import NumberError
 
 FAILED, AT_FAULT, STOPPED, CUT_OFF = 1, 2, 130, 141
 """Exit codes: the specification is not met; the input is at fault; the user pressed Ctrl+C; who reads the
@@ -344,11 +345,10 @@ def _load(load, options):
     changes = {}
     for name, text in (("wheel_load", options.wheel_load), ("wheelbase", options.wheelbase)):
         if text is not None:
-            low, high, unit = RANGES[name]
             try:
-                changes[name] = read_number(text, unit)
+                changes[name] = field_number(name, text)
             except NumberError as error:
-                raise CommandError(f"{error}; {name} is a number from {low:g} to {high:g} {unit}") from None
+                raise CommandError(f"--{name.replace('_', '-')} {error}") from None
     return dataclasses.replace(load, **changes)
 
 
@@ -378,12 +378,10 @@ def _change(text):
     if field not in RANGES:
         # the design says which fields there are
         return field, value
-    low, high, unit = RANGES[field]
     try:
-        return field, read_number(value, unit)
+        return field, field_number(field, value)
     except NumberError as error:
-        allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
-        raise CommandError(f"--set {text}: {error}; {field} is {allowed}") from None
+        raise CommandError(f"--set {text}: {error}") from None
 
 
 def _changes(options):

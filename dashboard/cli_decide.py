@@ -1,8 +1,8 @@
 """Commands that choose between designs: range, sensitivity, tolerance, map and find.
 
 They ask ``trackig_core.decide`` about the current design of a study, or a pinned one, and print a table and a
-sentence to standard output. SI units. How far they are goes to standard error. Ctrl+C ends them; a search
-then leaves the best so far.
+sentence to standard output. Numbers are taken with a unit, or in SI. How far they are goes to standard error.
+Ctrl+C ends them; a search then leaves the best so far.
 
 Exit codes are those of :mod:`dashboard.cli`: 1 when nothing complies.
 """
@@ -13,6 +13,7 @@ import dataclasses
 import datetime
 import io
 import json
+import re
 import signal
 import sys
 import threading
@@ -23,11 +24,15 @@ from functools import partial
 from pathlib import Path
 
 import trackig_core as tig
+from dashboard.cli_numbers import field_cost, field_number, field_range, read_share
+from dashboard.fields import ASKED_FIELDS
 from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
+from trackig_core.names import brief
 from trackig_core.solver import FIDELITIES
 from trackig_core.study.catalogue import KINDS
-from trackig_core.track.fields import SEARCHED_RANGES
+from trackig_core.track.fields import RANGES, SEARCHED_RANGES
+from trackig_core.typed_numbers import NumberError, find_unit, read_number
 
 FAILED, STOPPED = 1, 130
 """Exit codes: nothing complies; the user pressed Ctrl+C."""
@@ -90,9 +95,9 @@ def _command(commands, shell, name, kind_of=None, **words):
     command.add_argument("--design", metavar="NAME", help="a pinned design, in place of the current one")
     command.add_argument(
         "--max-deflection",
-        type=_number,
-        metavar="M",
-        help="greatest rail deflection [m], in place of the specification's own",
+        type=_deflection,
+        metavar="LENGTH",
+        help="greatest rail deflection, such as 2mm, in place of the specification's own; in m unless said",
     )
     command.add_argument(
         "--scheduler", metavar="ADDRESS", help="solve on a Dask cluster, such as tcp://10.0.0.5:8786"
@@ -120,11 +125,27 @@ def _add_repeated(command, option, action="append", **words):
     command.add_argument(option, action=action, **words)
 
 
+def _fields_help():
+    """Return the fields about which is asked, with the ranges that are searched of each."""
+    lines = ["fields, and the range that is searched of each unless another is given:"]
+    lines += [
+        f"  {name:31}{field.low:g} to {field.high:g} {field.unit}".rstrip()
+        for name, field in ASKED_FIELDS.items()
+        if name in SEARCHED_RANGES
+    ]
+    lines.append("(of suspension and ground, if the design has them; of speed, if it has several axles)")
+    return "\n".join(lines)
+
+
 FIELD_HELP = "this field, such as boot_stiffness or ground.stiffness"
 
 
 def _add_range(add):
-    command = add("range", help="Print where the design complies along each field, all others held.")
+    command = add(
+        "range",
+        help="Print where the design complies along each field, all others held.",
+        epilog=_fields_help(),
+    )
     _add_repeated(command, "--field", dest="fields", metavar="FIELD", help=FIELD_HELP)
     _add_ranges(command)
 
@@ -159,11 +180,7 @@ def _add_map(add):
     command = add(
         "map",
         help="Compute figures over two fields; exit with 1 if no design of the map complies.",
-        epilog=(
-            "The table goes to --csv; printed is what it says in one sentence. Fields are numbers of the "
-            "design, such as boot_stiffness, and by path those of what stands on and under it: "
-            "ground.stiffness, suspension.primary_damping."
-        ),
+        epilog=f"The figures of all points go to --csv.\n\n{_fields_help()}",
     )
     command.add_argument("x_field", metavar="X_FIELD")
     command.add_argument("y_field", metavar="Y_FIELD")
@@ -177,7 +194,9 @@ def _add_map(add):
 
 def _add_find(add):
     command = add(
-        "find", help="Search for designs that comply, and the best of them; exit with 1 if none does."
+        "find",
+        help="Search for designs that comply, and the best of them; exit with 1 if none does.",
+        epilog=_fields_help(),
     )
     _add_repeated(
         command,
@@ -185,7 +204,8 @@ def _add_find(add):
         _ByField,
         type=_free,
         metavar="FIELD[=LOW..HIGH]",
-        help="a field that is free, over its slider's range unless one is given [SI]",
+        help="a field that is free, over its slider's range unless one is given: boot_stiffness=5..40kN/mm; "
+        "in SI without a unit",
     )
     _add_repeated(
         command,
@@ -193,7 +213,8 @@ def _add_find(add):
         type=Path,
         default=[],
         metavar="FILE.csv",
-        help="a catalogue: one product a row, fields [SI] and cost in columns",
+        help="a catalogue: one product a row, fields and cost in columns, headed boot_stiffness [kN/mm]; in "
+        "SI where the header names no unit",
     )
     _add_repeated(
         command,
@@ -207,6 +228,9 @@ def _add_find(add):
         "--catalogue", type=Path, metavar="FILE.toml", help="that catalogue, in place of the bundled one"
     )
     command.add_argument("--rails", metavar="NAME,NAME", help="rails to choose from, such as 54E1,60E1")
+    command.add_argument(
+        "--all", action="store_true", help="print all best designs, not only ten of them, spread evenly"
+    )
     _add_repeated(
         command,
         "--objective",
@@ -218,9 +242,10 @@ def _add_find(add):
         command,
         "--cost",
         _ByField,
-        type=_field_number,
-        metavar="FIELD=PER_UNIT",
-        help="cost per SI unit of a field, for the objective cost",
+        type=_cost,
+        metavar="FIELD=COST",
+        help="cost per unit of a field, for the objective cost: block_mass=2.5/kg, boot_stiffness='0.3 per "
+        "kN/mm'; per SI unit where none is named",
     )
     command.add_argument(
         "--population", type=int, metavar="N", help="designs of a generation, 100 by default"
@@ -237,7 +262,7 @@ def _add_ranges(command):
         type=_range,
         dest="ranges",
         metavar="FIELD=LOW..HIGH",
-        help="range of a field [SI], in place of its slider's",
+        help="range of a field, in place of its slider's: boot_stiffness=5..40kN/mm; in SI without a unit",
     )
 
 
@@ -256,7 +281,8 @@ def _add_scatter(command, samples):
         "--production",
         type=Path,
         metavar="FILE.csv",
-        help="measured values, one specimen a row, fields [SI] in columns",
+        help="measured values, one specimen a row, fields in columns, headed boot_stiffness [kN/mm]; in SI "
+        "where the header names no unit",
     )
     command.add_argument("--samples", type=int, metavar="N", help=samples)
     _add_seed(command)
@@ -320,6 +346,7 @@ def _run(shell, kind, options):
 
 def _answer(shell, kind, settings, options):
     # slow to load, and no other command needs them
+    from dashboard.cli_tables import answer_rows
     from dashboard.persistence.exports import answer_csv
     from trackig_core.decide import Answer, Question
 
@@ -342,7 +369,8 @@ def _answer(shell, kind, settings, options):
         result = question.ask(**how)
     table, answer = result.to_dataframe(), Answer.of(question, result)
     if STANDARD_OUTPUT not in (options.csv, options.json):
-        sys.stdout.write(_text(result, table))
+        rows = answer_rows(result, getattr(options, "all", False))
+        sys.stdout.write(f"{rows}\n\n{result}\n")
     if options.csv is not None:
         name = current_name(study) if options.design is None else options.design
         heading = Heading.of_question(study, question, name, datetime.date.today())
@@ -404,41 +432,6 @@ def _anything_complies(result):
     if isinstance(result, decide.DesignMap):
         return result.complies is None or bool(result.complies.any())
     return not isinstance(result, decide.FoundDesigns) or result.front.size > 0
-
-
-def _text(result, table):
-    """Return what is printed: the rows that fit on a screen, and the sentence."""
-    return f"{_rows(result, table)}\n\n{result}\n"
-
-
-def _rows(result, table):
-    """Return the rows of a result that a person reads."""
-    from trackig_core import decide
-
-    if isinstance(result, decide.FoundDesigns):
-        columns = [name for name in table if name in result.free or name in result.objectives]
-        columns += [name for name in ("slack", "governed_by") if name in table]
-        places = result.front if result.front.size else [result.closest]
-        table = table.loc[places, columns]
-    elif isinstance(result, decide.ToleranceResult):
-        table = _tolerance_rows(result)
-    elif isinstance(result, decide.DesignMap):
-        table = table.drop(columns=[result.x_field, result.y_field]).describe().loc[["min", "50%", "max"]]
-        return table.to_string(float_format="{:.5g}".format)
-    elif isinstance(result, decide.Sensitivity):
-        table = table[["field", "change", *result.figures]]
-    if table.empty:
-        return "(no row)"
-    return table.to_string(index=False, float_format="{:.5g}".format)
-
-
-def _tolerance_rows(result):
-    """Return percentiles of insertion gain, band by band."""
-    import pandas as pd
-
-    columns = {"band_hz": tig.BAND_LABELS}
-    columns |= {f"{share}_percent": gain for share, gain in zip((5, 50, 95), result.percentiles, strict=True)}
-    return pd.DataFrame(columns)
 
 
 def _json(answer, table):
@@ -535,53 +528,66 @@ def watched(scheduler):
         signal.signal(signal.SIGINT, before)
 
 
-def _number(text):
+def _in_argument(read, *given):
+    """Return what a reader makes of an option's text; where it makes none, argparse says so."""
     try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r}: give a number") from None
+        return read(*given)
+    except NumberError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def _deflection(text):
+    """Return the greatest deflection [m]."""
+    return _in_argument(field_number, "rail_deflection_limit", text)
 
 
 def _share(text):
-    """Return a share given as 0.1 or as 10%."""
-    return _number(text[:-1]) / 100 if text.endswith("%") else _number(text)
+    """Return a share [-] given as 0.1 or as 10%."""
+    return _in_argument(read_share, text)
 
 
 def _pair(text, example):
     """Return the field and the rest of FIELD=REST."""
-    field, equals, rest = text.partition("=")
+    field, equals, rest = (part.strip() for part in text.partition("="))
     if not equals:
         raise argparse.ArgumentTypeError(f"{text[:40]!r}: write {example}")
     return field, rest
 
 
-def _field_number(text):
-    field, number = _pair(text, "FIELD=NUMBER, such as block_mass=2.5")
-    return field, _number(number)
+def _cost(text):
+    field, given = _pair(text, "FIELD=COST, such as block_mass=2.5/kg")
+    return field, _in_argument(field_cost, field, given)
 
 
 def _tolerance(text):
     """Return a field, and its tolerance as plain values."""
     field, given = _pair(text, "FIELD=SHARE, such as boot_stiffness=10%")
     kind, colon, share = given.rpartition(":")
-    return field, {kind: _share(share)} if colon else _share(share)
+    try:
+        value = read_share(share)
+    except NumberError as error:
+        raise argparse.ArgumentTypeError(f"{error}; a tolerance is a share, such as 10% or 0.1") from None
+    return field, {kind.strip(): value} if colon else value
 
 
 def _range(text):
-    field, ends = _pair(text, "FIELD=LOW..HIGH, such as boot_stiffness=10e6..40e6")
-    low, dots, high = ends.partition("..")
-    if not dots:
-        raise argparse.ArgumentTypeError(f"{text[:60]!r}: write FIELD=LOW..HIGH")
-    return field, [_number(low), _number(high)]
+    """Return a field, and both ends of its range [SI]."""
+    field, ends = _pair(text, "FIELD=LOW..HIGH, such as boot_stiffness=5..40 kN/mm")
+    _check_searched(field)
+    return field, _in_argument(field_range, field, ends)
 
 
 def _free(text):
-    """Return a field, and its range or that of its slider."""
+    """Return a field, and its range or that of its slider [SI]."""
     if "=" in text:
         return _range(text)
-    if text not in SEARCHED_RANGES:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r}: fields are {', '.join(SEARCHED_RANGES)}")
+    _check_searched(text)
     return text, list(SEARCHED_RANGES[text])
+
+
+def _check_searched(field):
+    if field not in SEARCHED_RANGES:
+        raise argparse.ArgumentTypeError(f"{field[:40]!r}: fields are {', '.join(SEARCHED_RANGES)}")
 
 
 def _points(text):
@@ -640,23 +646,38 @@ def _table(path):
     rows = [row for row in rows if any(cell.strip() for cell in row) and not row[0].startswith("#")]
     if len(rows) < 2:
         raise DecideError(f"{path}: give a header of fields and one row or more")
-    header = [cell.strip() for cell in rows[0]]
-    columns = {name: [] for name in header}
+    header = [_column(path, cell) for cell in rows[0]]
+    columns = {field: [] for field, _ in header}
     for number, row in enumerate(rows[1:], start=2):
         if len(row) != len(header):
             raise DecideError(
                 f"{path}, row {number}: {len(row)} values, and {len(header)} fields in the header"
             )
-        for field, cell in zip(header, row, strict=True):
-            columns[field].append(_cell(path, number, field, cell.strip()))
+        for (field, unit), cell in zip(header, row, strict=True):
+            columns[field].append(_cell(path, number, field, unit, cell.strip()))
     return columns
 
 
-def _cell(path, number, field, cell):
-    """Return a cell as a number, or a rail's name as it is."""
+def _column(path, head):
+    """Return the field that a header names, and the unit of its numbers, in SI where none is named."""
+    name, written = re.fullmatch(r"([^\[(,]*)[\[(,]?(.*?)[\])]?", head.strip()).groups()
+    field = name.strip().lower().replace(" ", "_")
+    if field not in RANGES:  # a rail, a cost in any currency, or what the core refuses
+        return name.strip(), find_unit("")
+    wanted = find_unit(RANGES[field][2])
+    unit = find_unit(written.strip()) if written.strip() else wanted
+    if unit is None or unit.quantity != wanted.quantity:
+        like = f", such as {wanted.name}" if wanted.name else ": it has none"
+        raise DecideError(f"{path}: {brief(head)} names no unit of {field}{like}")
+    return field, unit
+
+
+def _cell(path, number, field, unit, cell):
+    """Return a cell as a number in SI, or a rail's name as it is."""
     if field == "rail":
         return cell
     try:
-        return float(cell)
-    except ValueError:
-        raise DecideError(f"{path}, row {number}, {field}: {cell[:40]!r} is no number") from None
+        given = read_number(cell, unit.name)
+    except NumberError as error:
+        raise DecideError(f"{path}, row {number}, {field}: {error}") from None
+    return unit.convert(given, find_unit(RANGES[field][2] if field in RANGES else ""))

@@ -45,6 +45,11 @@ def table(path):
     return list(csv.DictReader(line for line in lines if not line.startswith("# ")))
 
 
+def printed(text):
+    """Return the cells of a printed table, which two spaces or more part, and none within."""
+    return [line.split() for line in text.split("\n\n")[0].splitlines()]
+
+
 def test_range_prints_and_writes_what_the_core_finds(save, tmp_path, capsys):
     out, answer = tmp_path / "out.csv", tmp_path / "out.json"
     words = ["range", save(), "--field", "boot_stiffness", "--field", "block_mass"]
@@ -58,7 +63,15 @@ def test_range_prints_and_writes_what_the_core_finds(save, tmp_path, capsys):
         assert remark in out.read_text(encoding="utf-8").splitlines()
     said = capsys.readouterr().out
     assert said.endswith(f"\n{expected}\n")
-    assert f"{expected['boot_stiffness'][0][1]:.5g}" in said
+    low, high = expected["boot_stiffness"][0]
+    assert printed(said)[1] == [
+        "boot_stiffness",
+        f"{low / 1e6:.4g}",
+        f"{high / 1e6:.4g}",
+        "2",
+        "200",
+        "kN/mm",
+    ]
     found = json.loads(answer.read_text(encoding="utf-8"))
     assert found["sentence"] == str(expected)
     assert found["rows"][0]["low"] == pytest.approx(expected["boot_stiffness"][0][0], rel=1e-12)
@@ -118,7 +131,8 @@ def test_tolerance_takes_specimens(save, tmp_path, capsys):
 
 def test_map_writes_every_point(save, tmp_path, capsys):
     out = tmp_path / "map.csv"
-    words = ["map", save(), "boot_stiffness", "block_mass", "--points", "7x5", "--range", "block_mass=20..90"]
+    words = ["map", save(), "boot_stiffness", "block_mass", "--points", "7x5"]
+    words += ["--range", "block_mass=0.02 t to 90 kg"]
     assert main([*words, "--csv", str(out)]) in (0, 1)
     rows = table(out)
     assert len(rows) == 35
@@ -128,7 +142,14 @@ def test_map_writes_every_point(save, tmp_path, capsys):
     margin = CEILING.check(tig.solve(point, "exact").insertion_gain).worst_margin
     assert float(rows[17]["margin"]) == pytest.approx(margin, abs=0.01)
     assert {float(row["block_mass"]) for row in rows} == {20.0, 37.5, 55.0, 72.5, 90.0}
-    assert "of the map complies" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "of the map complies" in said
+    assert said.splitlines()[0].split(", ") == [
+        *("over the map margin", "dB deflection", "mm loaded_track", "Hz coupled_block", "Hz")
+    ]
+    margins, deflections = ([float(row[name]) for row in rows] for name in ("margin", "deflection"))
+    for line, of in zip(said.splitlines()[1:4], (min, np.median, max), strict=True):
+        assert line.split()[1:3] == [f"{of(margins):.2f}", f"{1e3 * of(deflections):.3f}"]
 
 
 SPRUNG = BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["soft clay"])
@@ -264,6 +285,9 @@ def test_input_at_fault_is_told_in_one_line(save, capsys, words, message):
     [
         ("boot_stiffness\n20e6,1\n", "row 2: 2 values, and 1 fields in the header"),
         ("boot_stiffness\nsoft\n", "row 2, boot_stiffness: 'soft' is no number"),
+        ("boot_stiffness [kg]\n20\n", "'boot_stiffness [kg]' names no unit of boot_stiffness, such as N/m"),
+        ("pad_loss_factor [m]\n0.2\n", "names no unit of pad_loss_factor: it has none"),
+        ("boot_stiffness [kN/mm]\n20 kg\n", "row 2, boot_stiffness: '20 kg': kg is a unit of mass"),
         ("boot_stiffness\n", "give a header of fields and one row or more"),
     ],
 )
@@ -279,7 +303,27 @@ def test_a_table_at_fault_names_its_row(save, tmp_path, capsys, text, message):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["range", "x.toml", "--range", "block_mass=5"], "write FIELD=LOW..HIGH"),
+        (["range", "x.toml", "--range", "block_mass"], "write FIELD=LOW..HIGH"),
+        (
+            ["range", "x.toml", "--range", "block_mass=5"],
+            "write block_mass=LOW..HIGH, with a unit or in SI; block_mass is a number from 1 to 10000 kg",
+        ),
+        (["range", "x.toml", "--range", "colour=1..2"], "fields are pad_stiffness"),
+        (
+            ["map", "x.toml", "a", "b", "--range", "boot_stiffness=5..40 kg"],
+            "kg is a unit of mass; give N/m, N/mm, kN/mm or MN/m; boot_stiffness is a number from 100000 to "
+            "1e+13 N/m",
+        ),
+        (["range", "x.toml", "--max-deflection", "2 kN"], "rail_deflection_limit is a number from 1e-06"),
+        (
+            ["find", "x.toml", "--cost", "block_mass=2/mm"],
+            "'mm' is no unit of block_mass; give a cost per kg",
+        ),
+        (
+            ["tolerance", "x.toml", "--tolerance", "block_mass=2kg"],
+            "a tolerance is a share, such as 10% or 0.1",
+        ),
+        (["sensitivity", "x.toml", "--change", "a lot"], "'a lot' is no number"),
         (["find", "x.toml", "--free", "colour"], "fields are pad_stiffness"),
         (["tolerance", "x.toml", "--tolerance", "boot_stiffness"], "write FIELD=SHARE"),
         (["map", "x.toml", "a", "b", "--points", "5"], "write NXxNY"),
@@ -290,6 +334,77 @@ def test_words_that_are_none_are_refused_at_once(capsys, words, message):
         main(words)
     assert ended.value.code == 2
     assert message in capsys.readouterr().err
+
+
+def test_numbers_have_units_wherever_they_are_taken(save, tmp_path):
+    found, boots = tmp_path / "found.csv", tmp_path / "boot.csv"
+    boots.write_text("Boot stiffness [kN/mm],cost (EUR)\n20,30\n28,20\n", encoding="utf-8")
+    words = ["find", save(), "--free", "block_mass=20 kg:0.1 t", "--choose", str(boots)]
+    words += ["--objective", "cost", "--cost", "pad_stiffness=2 per kN/mm", "--max-deflection", "1.5 mm"]
+    assert main([*words, "--population", "8", "--generations", "2", "--csv", str(found)]) in (0, 1)
+    rows = table(found)
+    assert {row["boot_stiffness"] for row in rows} == {"2e+07", "2.8e+07"}
+    assert all(20 <= float(row["block_mass"]) <= 100 for row in rows)
+    price = {"2e+07": 30, "2.8e+07": 20}
+    for row in rows:
+        expected = price[row["boot_stiffness"]] + 2 * BLOCK.pad_stiffness / 1e6
+        assert float(row["cost"]) == pytest.approx(expected, rel=1e-5)
+    remarks = found.read_text(encoding="utf-8")
+    assert '"free": {"block_mass": [20.0, 100.0]}' in remarks
+    assert '"max_deflection": 0.0015' in remarks
+
+
+def test_tables_name_their_units(save, capsys):
+    study = save()
+    assert main(["sensitivity", study, "--change", "5%"]) == 0
+    title, heads, first, *_ = capsys.readouterr().out.splitlines()
+    assert title == "Change of each figure when one field changes:"
+    figures = "margin, dB deflection, mm loaded_track, Hz coupled_block, Hz"
+    assert heads.split() == f"field changed by, % {figures}".split()
+    expected = tig.decide.sensitivity(BLOCK, CEILING, changes=0.05).differences
+    down = {name: values[0, 0] for name, values in expected.items()}
+    assert first.split() == [
+        *("pad_stiffness", "-5", f"{down['margin']:.2f}", f"{1e3 * down['deflection']:.3f}"),
+        *(f"{down['loaded_track']:.1f}", f"{down['coupled_block']:.1f}"),
+    ]
+    assert main(["tolerance", study, "--tolerance", "boot_stiffness=10%", "--samples", "200"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert said[1].split(", ") == ["band", "Hz 5 %", "dB 50 %", "dB 95 %", "dB"]
+    levels = tig.decide.tolerance(BLOCK, CEILING, {"boot_stiffness": 0.1}, samples=200).percentiles
+    assert said[2].split() == ["5", *(f"{level:.2f}" for level in levels[:, 0])]
+    words = ["--tolerance", "boot_stiffness=10%", "--tolerance", "block_mass=2%", "--samples", "128"]
+    assert main(["sensitivity", study, *words]) == 0
+    said = capsys.readouterr().out.splitlines()
+    indices = tig.decide.sobol(BLOCK, {"boot_stiffness": 0.1, "block_mass": 0.02}, CEILING, samples=128)
+    assert "alone, %" in said[1]
+    assert f" {100 * indices.first_order[0, 0]:.0f} (" in said[2]
+
+
+SEARCH = ["--free", "boot_stiffness=20..40 kN/mm", "--free", "block_mass", "--population", "20"]
+
+
+def test_a_few_of_the_best_designs_are_printed_unless_all_are_asked_for(save, capsys):
+    words = ["find", save(), *SEARCH, "--generations", "12"]
+    assert main(words) == 0
+    free = {"boot_stiffness": (20e6, 40e6), "block_mass": (10, 500)}
+    best = tig.decide.find(BLOCK, CEILING, free, population=20, generations=12)
+    count = best.front.size
+    assert count > 10
+    heads, *rows, remark = capsys.readouterr().out.split("\n\n")[0].splitlines()
+    assert re.findall(r"\S+, \S+", heads) == [
+        *("block_mass, kg", "boot_stiffness, kN/mm", "margin, dB", "deflection, mm", "slack, dB")
+    ]
+    assert len(rows) == 10
+    assert remark.startswith(
+        f"10 of the {count} best designs, spread evenly over them, greatest margin first"
+    )
+    ends = [best.best()[0], best.best()[-1]]
+    assert [row.split()[:2] for row in (rows[0], rows[-1])] == [
+        [f"{each.block_mass:.4g}", f"{each.boot_stiffness / 1e6:.4g}"] for each in ends
+    ]
+    assert main([*words, "--all"]) == 0
+    rows = printed(capsys.readouterr().out)[1:]
+    assert [row[1] for row in rows] == [f"{each.boot_stiffness / 1e6:.4g}" for each in best.best()]
 
 
 def test_it_does_not_write_over_files(save, tmp_path, capsys):
