@@ -17,6 +17,7 @@ import re
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -45,6 +46,10 @@ SAMPLES = 10_000
 
 MOST_BYTES = 10_000_000
 """Size that a table of specimens or products may have [bytes]."""
+
+
+SELDOM = 10.0
+"""Time between two lines on how far it is, in a file or for another program [s]."""
 
 
 class DecideError(ValueError):
@@ -501,6 +506,39 @@ def pages_of(answers):
     return pages
 
 
+class _Progress:
+    """Tells how far something is: on a screen in one line that is written over, elsewhere seldom.
+
+    Parameters
+    ----------
+    stream : file
+        Where it is told.
+    """
+
+    def __init__(self, stream):
+        self._stream, self._is_screen = stream, stream.isatty()
+        self._shown, self._last = None, time.monotonic()
+
+    def __call__(self, done):
+        """Tell how much is done, 0 to 1."""
+        text = f"{10 * int(10 * done)} %"
+        if text == self._shown:
+            return
+        if self._is_screen:
+            self._stream.write(f"\r{text}")
+        elif time.monotonic() - self._last >= SELDOM:
+            self._stream.write(f"{text}\n")
+        else:
+            return
+        self._stream.flush()
+        self._shown, self._last = text, time.monotonic()
+
+    def end(self):
+        """End the line on a screen, so that what follows stands below it."""
+        if self._is_screen and self._shown is not None:
+            self._stream.write("\n")
+
+
 @contextmanager
 def watched(scheduler):
     """Tell on standard error how far it is, and let Ctrl+C ask it to end; a second Ctrl+C ends it at once."""
@@ -511,21 +549,13 @@ def watched(scheduler):
             raise KeyboardInterrupt
         stop.set()
 
-    shown = -1
-
-    def progress(done):
-        nonlocal shown
-        tenths = int(10 * done)
-        if tenths > shown:
-            shown = tenths
-            sys.stderr.write(f"{10 * tenths} %\n")
-            sys.stderr.flush()
-
+    progress = _Progress(sys.stderr)
     before = signal.signal(signal.SIGINT, interrupted)
     try:
         yield {"progress": progress, "cancelled": stop.is_set, "scheduler": scheduler}
     finally:
         signal.signal(signal.SIGINT, before)
+        progress.end()
 
 
 def _in_argument(read, *given):

@@ -1,4 +1,4 @@
-"""Tables of answers as the command line prints them: columns name their units, which are those of the page."""
+"""Tables of answers as the command line prints them: columns name their units, those of the page."""
 
 import numpy as np
 import pandas as pd
