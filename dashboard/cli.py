@@ -134,7 +134,7 @@ def _parser():
     _add_solve(commands)
     _add_check(commands)
     _add_report(commands)
-    cli_decide.add_commands(commands, cli_decide.Shell(_add, _open_study, _refuse_to_lose, _write))
+    cli_decide.add_commands(commands, cli_decide.Shell(_add, _add_study, _open, _refuse_to_lose, _write))
     _add_serve(commands)
     return parser
 
@@ -147,6 +147,26 @@ def _add(commands, name, run, **words):
     return command
 
 
+def _add_study(command):
+    """Add what a command is about: a preset or a study, and the specification that holds for it."""
+    command.add_argument(
+        "study",
+        metavar="PRESET|FILE.toml",
+        help=f"{', '.join(tig.PRESETS)}, or a study, as the dashboard and solve --study write it",
+    )
+    command.add_argument(
+        "--specification",
+        type=Path,
+        metavar="FILE.csv",
+        help="a table of bands [Hz] and greatest insertion gain [dB], in place of the study's specification",
+    )
+    command.add_argument(
+        "--limits",
+        choices=LIMITS,
+        help="what the limits are; the sign of insertion losses is turned",
+    )
+
+
 def _add_solve(commands):
     command = _add(
         commands,
@@ -155,11 +175,7 @@ def _add_solve(commands):
         help="Print insertion gain per band [dB] and natural frequencies [Hz] of a track.",
         epilog=_fields_help(),
     )
-    command.add_argument(
-        "track",
-        metavar="PRESET|FILE.toml",
-        help=f"{', '.join(tig.PRESETS)}, or a study, for its current design",
-    )
+    _add_study(command)
     command.add_argument(
         "--set",
         action="append",
@@ -212,6 +228,14 @@ def _add_solve(commands):
         metavar="FILE",
         help="write design and results as JSON, in SI and in full, - for standard output",
     )
+    command.add_argument(
+        "--study",
+        type=Path,
+        metavar="FILE.toml",
+        dest="saved",
+        help="write the track, as it was changed, as a study for the other commands and the dashboard, - for "
+        "standard output",
+    )
     _add_force(command)
 
 
@@ -223,18 +247,7 @@ def _add_check(commands):
         help="Hold a study's designs against its specification; exit with 1 if any fails.",
         epilog="Checked are the current design and the pinned designs that are shown, not the hidden ones.",
     )
-    command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
-    command.add_argument(
-        "--specification",
-        type=Path,
-        metavar="FILE.csv",
-        help="check against this table of bands [Hz] and greatest insertion gain [dB] instead",
-    )
-    command.add_argument(
-        "--limits",
-        choices=LIMITS,
-        help="what the limits are; the sign of insertion losses is turned",
-    )
+    _add_study(command)
     command.set_defaults(cut_off=CUT_OFF)
     _add_fidelity(command)
 
@@ -247,7 +260,7 @@ def _add_report(commands):
         help="Write a report of a study as one HTML file.",
         epilog="Reported are the current design and the pinned designs that are shown.",
     )
-    command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
+    _add_study(command)
     command.add_argument(
         "output", type=Path, metavar="OUT.html", help="where the report is written, - for standard output"
     )
@@ -313,12 +326,14 @@ def _port(text):
 
 
 def _solve(options):
-    outputs = [path for path in (options.csv, options.json) if path is not None]
+    outputs = [path for path in (options.csv, options.json, options.saved) if path is not None]
     if outputs.count(STANDARD_OUTPUT) > 1:
-        raise CommandError("--csv - --json -: standard output takes one of them")
+        raise CommandError("--csv -, --json -, --study -: standard output takes one of them")
     for path in outputs:
-        _refuse_to_lose(path, options.force, options.track)
-    study = _track(options.track)
+        _refuse_to_lose(path, options.force, options.study)
+    if options.saved is None and (options.specification or options.limits):
+        raise CommandError("--specification and --limits go into the study that is written: give --study too")
+    study = _open(options)
     view, load = study.view, _load(study.load, options)
     changed = study.design.replace(**_changes(options))
     solution = tig.solve(
@@ -337,7 +352,16 @@ def _solve(options):
         _write(options.csv, _solution_csv(study, solution, gain, bands, statics))
     if options.json is not None:
         _write(options.json, _solution_json(solution, gain, notes, statics))
+    if options.saved is not None:
+        _write(options.saved, _changed_study(study, solution, bands, load).to_toml())
     return 0
+
+
+def _changed_study(study, solution, bands, load):
+    """Return a study with the design, the definition, the bands and the wheels of the command line."""
+    gain = solution.gain
+    view = dataclasses.replace(study.view, reference=gain.reference, summation=gain.summation, bands=bands)
+    return dataclasses.replace(study, design=solution.design, view=view, load=load)
 
 
 def _load(load, options):
@@ -352,7 +376,24 @@ def _load(load, options):
     return dataclasses.replace(load, **changes)
 
 
-def _track(name):
+def _open(options):
+    """Return the study that a command is about, with the specification that its options give."""
+    opened = _named_study(options.study)
+    if options.specification is not None:
+        specification = _open_specification(options.specification, options.limits)
+        opened = dataclasses.replace(opened, specification=specification)
+    if opened.specification is None:
+        return opened
+    if options.limits == "insertion-loss":
+        return dataclasses.replace(opened, specification=opened.specification.turned())
+    if options.limits is None and opened.specification.is_probably_loss:
+        sys.stderr.write(
+            "trackig: no limit is below 0 dB; if they are insertion losses, give --limits insertion-loss\n"
+        )
+    return opened
+
+
+def _named_study(name):
     """Return the study that a preset's name or a study's path stands for."""
     if name in tig.PRESETS:
         return tig.Study(tig.PRESETS[name], preset=name)
@@ -442,19 +483,10 @@ def _open_specification(path, limits):
 
 
 def _check(options):
-    opened = _open_study(options.study)
-    if options.specification is not None:
-        specification = _open_specification(options.specification, options.limits)
-        opened = dataclasses.replace(opened, specification=specification)
+    opened = _open(options)
     if opened.specification is None:
         raise CommandError(
             f"{options.study}: the study has no specification; add one, or give --specification FILE.csv"
-        )
-    if options.limits == "insertion-loss":
-        opened = dataclasses.replace(opened, specification=opened.specification.turned())
-    elif options.limits is None and opened.specification.is_probably_loss:
-        sys.stderr.write(
-            "trackig: no limit is below 0 dB; if they are insertion losses, give --limits insertion-loss\n"
         )
     complies = True
     for pinned in shown_designs(opened):
@@ -484,7 +516,7 @@ def _report(options):
         )
     if not options.ladder and (options.vehicle or options.ground):
         raise CommandError("--vehicle and --ground are those of the ladder: give --ladder too")
-    opened = _open_study(options.study)
+    opened = _open(options)
     _refuse_to_lose(options.output, options.force, options.study)
     ladder = _ladder(opened, options) if options.ladder else None
     summaries = {
@@ -587,8 +619,7 @@ def _solution_csv(study, solution, gain, bands, statics):
     # slow to load, and nobody waits for it who writes no table
     from dashboard.persistence.exports import gain_csv
 
-    view = dataclasses.replace(study.view, reference=gain.reference, summation=gain.summation, bands=bands)
-    study = dataclasses.replace(study, design=solution.design, view=view)
+    study = _changed_study(study, solution, bands, study.load)
     result = DesignResult(
         current_design(study.design),
         SolutionSummary.of(solution, 0.0),

@@ -64,8 +64,10 @@ class Shell:
     ----------
     add : callable
         Adds a command: (commands, name, run, help=...).
+    add_study : callable
+        Adds to a command what it is about: (command).
     open_study : callable
-        From a path to a study.
+        From the options of a command to the study that it is about.
     refuse_to_lose : callable
         Refuses to write over a file: (path, force, file that is read).
     write : callable
@@ -73,6 +75,7 @@ class Shell:
     """
 
     add: Callable
+    add_study: Callable
     open_study: Callable
     refuse_to_lose: Callable
     write: Callable
@@ -96,7 +99,7 @@ def _command(commands, shell, name, kind_of=None, **words):
     """Add a command that asks a question of its name, or of the kind that its options make it."""
     kind_of = kind_of or (lambda _: name)
     command = shell.add(commands, name, lambda options: _run(shell, kind_of(options), options), **words)
-    command.add_argument("study", type=Path, metavar="STUDY", help="a study, FILE.toml")
+    shell.add_study(command)
     command.add_argument("--design", metavar="NAME", help="a pinned design, in place of the current one")
     command.add_argument(
         "--max-deflection",
@@ -319,7 +322,7 @@ def _add_parquet(command):
     )
 
 
-def _settings(shell, kind, options):
+def _settings(study, kind, options):
     """Return the settings of a question that were given: options go by the names of what they set."""
     # slow to load, and no other command needs it
     from trackig_core.decide import questions
@@ -328,7 +331,7 @@ def _settings(shell, kind, options):
     if given.get("production") is not None:
         given["production"] = _table(options.production)
     if "choices" in given:
-        given["choices"] = _choices(shell, options)
+        given["choices"] = _choices(study, options)
     return {name: value for name, value in given.items() if value not in (None, {}, [])}
 
 
@@ -339,7 +342,8 @@ def _run(shell, kind, options):
     for path in outputs:
         shell.refuse_to_lose(path, options.force, options.study)
     try:
-        return _answer(shell, kind, _settings(shell, kind, options), options)
+        study = shell.open_study(options)
+        return _answer(shell, study, kind, _settings(study, kind, options), options)
     except tig.SolveCancelled:
         return STOPPED
     except (tig.DesignError, tig.StudyError, DecideError):
@@ -349,17 +353,21 @@ def _run(shell, kind, options):
         raise DecideError(error.args[0]) from error
 
 
-def _answer(shell, kind, settings, options):
+def _answer(shell, study, kind, settings, options):
     # slow to load, and no other command needs them
     from dashboard.cli_tables import answer_rows
     from dashboard.persistence.exports import answer_csv
     from trackig_core.decide import Answer, Question
+    from trackig_core.decide.questions import KINDS as QUESTIONS
 
-    study = shell.open_study(options.study)
     if getattr(options, "parquet", None) is not None:
         return _job(study, kind, settings, options)
     if options.max_deflection is not None:
         settings["max_deflection"] = options.max_deflection
+    if study.specification is None and QUESTIONS[kind].needs_specification:
+        raise DecideError(
+            f"{options.study}: no specification to hold designs against; give --specification FILE.csv"
+        )
     design = _design(study, options.design)
     question = Question(
         kind=kind,
@@ -628,13 +636,13 @@ def _points(text):
         raise argparse.ArgumentTypeError(f"{text[:40]!r}: write NXxNY, such as 200x200") from None
 
 
-def _choices(shell, options):
+def _choices(study, options):
     """Return what is chosen from tables of products, a catalogue and rails."""
     choices = {path.stem: _products(path) for path in options.choose}
     if options.catalogue is not None and not options.components:
         raise DecideError(f"--catalogue: name with --component what is chosen: {', '.join(KINDS)}")
     if options.components:
-        design = _design(shell.open_study(options.study), options.design)
+        design = _design(study, options.design)
         catalogue = _catalogue(options.catalogue)
         choices |= {
             kind: [each.choice(design) for each in catalogue.of_kind(kind).values()]

@@ -266,7 +266,7 @@ def test_no_design_of_a_map_complies(save):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["range"], "range needs a specification to hold designs against: give one"),
+        (["range"], "no specification to hold designs against; give --specification FILE.csv"),
         (["map", "boot_stiffness", "boot_stiffness"], "both fields are boot_stiffness: give two"),
         (["sensitivity", "--tolerance", "rail=10%"], "'rail' is not a single number of this design"),
         (["map", "boot_stiffness", "block_mass", "--figure", "level"], "level: there is no source spectrum"),
@@ -353,6 +353,24 @@ def test_numbers_have_units_wherever_they_are_taken(save, tmp_path):
     remarks = found.read_text(encoding="utf-8")
     assert '"free": {"block_mass": [20.0, 100.0]}' in remarks
     assert '"max_deflection": 0.0015' in remarks
+
+
+def test_a_preset_and_a_specification_stand_for_a_study(save, tmp_path, capsys):
+    limits = tmp_path / "limits.csv"
+    limits.write_text(CEILING.to_csv(), encoding="utf-8")
+    asked = ["--field", "boot_stiffness"]
+    assert main(["range", "booted-block-low-mass", "--specification", str(limits), *asked]) == 0
+    of_preset = capsys.readouterr().out
+    assert main(["range", save(), *asked]) == 0
+    assert of_preset == capsys.readouterr().out
+    assert main(["range", save(specification=HOPELESS), "--specification", str(limits), *asked]) == 0
+    assert of_preset == capsys.readouterr().out
+    assert main(["map", "booted-sleeper", "boot_stiffness", "pad_stiffness", "--points", "3x3"]) == 0
+    assert "The greatest rail deflection is" in capsys.readouterr().out
+    assert main(["find", "booted-blok", "--free", "block_mass"]) == 2
+    assert "did you mean booted-block-" in capsys.readouterr().err
+    assert main(["find", "booted-sleeper", "--free", "block_mass"]) == 2
+    assert "give --specification FILE.csv" in capsys.readouterr().err
 
 
 def test_tables_name_their_units(save, capsys):
