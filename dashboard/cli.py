@@ -12,6 +12,7 @@ import dataclasses
 import datetime
 import difflib
 import json
+import logging
 import os
 import sys
 import time
@@ -100,6 +101,8 @@ def main(arguments=None):
         # names may hold characters that an old console does not have
         stream.reconfigure(errors="replace")
     options = _parser().parse_args(arguments)
+    if options.run is not _serve and sys.stderr.isatty():
+        _tell_of_compiling()
     try:
         code = options.run(options)
         sys.stdout.flush()
@@ -113,6 +116,15 @@ def main(arguments=None):
     except (CommandError, *USER_ERRORS) as error:
         sys.stderr.write(f"trackig: {_words(error)}\n")
         return AT_FAULT
+
+
+def _tell_of_compiling():
+    """Have whoever waits at a screen told that a first run compiles; a page says so itself."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(logging.Formatter("trackig: %(message)s"))
+    log = logging.getLogger("trackig_core.compiling")
+    log.handlers, log.propagate = [handler], False
+    log.setLevel(logging.INFO)
 
 
 def _words(error):

@@ -4,7 +4,9 @@ import contextlib
 import csv
 import dataclasses
 import html
+import io
 import json
+import logging
 import os
 import re
 import socket
@@ -112,6 +114,21 @@ def test_a_track_is_written_as_a_study_that_other_commands_take(capsys, save, tm
     assert main(["solve", save(pinned=pinned, name="Mine"), "--fidelity", "exact", "--study", "-"]) == 0
     written = tig.Study.from_toml(capsys.readouterr().out)
     assert (written.name, written.pinned) == ("Mine", tuple(pinned))
+
+
+@pytest.mark.parametrize(("at_screen", "told"), [(True, "trackig: kernels are compiled\n"), (False, "")])
+def test_who_waits_at_a_screen_is_told_that_a_first_run_compiles(monkeypatch, at_screen, told):
+    log = logging.getLogger("trackig_core.compiling")
+    for name in ("handlers", "level", "propagate"):
+        monkeypatch.setattr(log, name, getattr(log, name))
+    screen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
+    screen.isatty = lambda: at_screen
+    monkeypatch.setattr(sys, "stderr", screen)
+    assert main(["solve", "slab-track", "--fidelity", "exact"]) == 0
+    log.info("kernels are compiled")
+    said = screen.buffer.getvalue().decode().replace("\r\n", "\n")
+    assert said.endswith(told)
+    assert bool(said) == bool(told)
 
 
 def test_a_preset_is_checked_and_reported(capsys, tmp_path):
