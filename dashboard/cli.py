@@ -276,6 +276,10 @@ def _add_report(commands):
     command.add_argument(
         "output", type=Path, metavar="OUT.html", help="where the report is written, - for standard output"
     )
+    for name in ("project", "client", "author"):
+        command.add_argument(
+            f"--{name}", default="", metavar="NAME", help=f"name of the {name}, for the report's header"
+        )
     command.add_argument(
         "--ladder",
         action="store_true",
@@ -519,8 +523,12 @@ def _check(options):
 
 def _report(options):
     # plots are slow to load, and no other command draws any
-    from dashboard.report.html_report import html_report
+    from dashboard.report.html_report import Particulars, html_report
 
+    try:
+        particulars = Particulars(options.project, options.client, options.author)
+    except ValueError as error:
+        raise CommandError(f"--{error}") from None
     if options.output != STANDARD_OUTPUT and options.output.suffix.lower() not in PAGES:
         page = options.output.with_suffix(".html")
         raise CommandError(
@@ -546,6 +554,7 @@ def _report(options):
         version=tig.__version__,
         pages=pages,
         left_out=ladder,
+        particulars=particulars,
     )
     _write(options.output, report)
     if options.output != STANDARD_OUTPUT:

@@ -196,6 +196,21 @@ def test_a_table_that_cannot_be_measured_of_a_track_is_told_in_one_line(capsys, 
     assert error.count("\n") == 1
 
 
+def test_a_report_says_whose_it_is_if_that_is_given(save, tmp_path, capsys):
+    out = tmp_path / "report.html"
+    words = ["report", save(), str(out), "--fidelity", "exact", "--project", "Line 7"]
+    assert main([*words, "--client", "<b>Metro & Co</b>", "--author", "A. Nother"]) == 0
+    text = out.read_text(encoding="utf-8")
+    for name, value in (
+        ("Project", "Line 7"),
+        ("Client", html.escape("<b>Metro & Co</b>")),
+        ("Author", "A. Nother"),
+    ):
+        assert f"<dt>{name}</dt><dd>{value}</dd>" in text
+    assert main([*words, "--force", "--client", "x" * 61]) == 2
+    assert "trackig: --client = 'xxx" in capsys.readouterr().err
+
+
 def test_a_report_holds_the_ladder_if_that_is_asked_for(save, tmp_path, capsys):
     page, title = tmp_path / "report.html", "What the simplified model leaves out"
     words = ["report", save(), str(page), "--fidelity", "exact", "--force"]
