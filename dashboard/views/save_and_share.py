@@ -50,7 +50,9 @@ class SaveAndShare(Tab):
         self.force = button("Force, CSV", "download", on_click=self._save_force)
         self.report = button("Report, HTML", "description", on_click=self._save_report)
         self.left_out = pmui.Switch(label=LEFT_OUT_LABEL, value=False, margin=(6, 12))
-        self.particulars = {name: _name_box(name.capitalize()) for name in ("project", "client", "author")}
+        self.particulars = {
+            name: _name_box(f"{name.capitalize()}, on the report") for name in ("project", "client", "author")
+        }
         for box in self.particulars.values():
             box.param.watch(_check_name, "value")
         self.sheet = button("Data sheet, HTML", "article", on_click=self._save_sheet)
@@ -215,7 +217,7 @@ class SaveAndShare(Tab):
             ("Study", STUDY_WORDS, [self.study_name, self.save, self.open], [self.message]),
             (
                 *("Report and curves", CURVE_WORDS),
-                [*self.particulars.values(), self.report, self.gain, self.force, self.left_out],
+                [self.report, self.gain, self.force, self.left_out, *self.particulars.values()],
                 (),
             ),
             ("Data sheet", SHEET_WORDS, [self._sheet_place, self.sheet], ()),
