@@ -12,6 +12,7 @@ import dataclasses
 import datetime
 import difflib
 import json
+import logging
 import os
 import sys
 import time
@@ -19,6 +20,7 @@ from pathlib import Path
 
 import trackig_core as tig
 from dashboard import cli_decide, formats
+from dashboard.cli_numbers import field_number
 from dashboard.server.command import ServeError, add_arguments, serve
 from dashboard.session.bands import WIDE, bands_text, gain_in
 from dashboard.session.heading import Heading
@@ -35,7 +37,7 @@ from trackig_core.solver import FIDELITIES
 from trackig_core.study import studies
 from trackig_core.track.design import RANGES, measured_curves
 from trackig_core.track.measured_tables import UNITS, read_stiffness
-from trackig_core.typed_numbers import NumberError, read_number
+from trackig_core.typed_numbers import NumberError
 
 FAILED, AT_FAULT, STOPPED, CUT_OFF = 1, 2, 130, 141
 """Exit codes: the specification is not met; the input is at fault; the user pressed Ctrl+C; who reads the
@@ -99,6 +101,8 @@ def main(arguments=None):
         # names may hold characters that an old console does not have
         stream.reconfigure(errors="replace")
     options = _parser().parse_args(arguments)
+    if options.run is not _serve and sys.stderr.isatty():
+        _tell_of_compiling()
     try:
         code = options.run(options)
         sys.stdout.flush()
@@ -112,6 +116,15 @@ def main(arguments=None):
     except (CommandError, *USER_ERRORS) as error:
         sys.stderr.write(f"trackig: {_words(error)}\n")
         return AT_FAULT
+
+
+def _tell_of_compiling():
+    """Have whoever waits at a screen told that a first run compiles; a page says so itself."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(logging.Formatter("trackig: %(message)s"))
+    log = logging.getLogger("trackig_core.compiling")
+    log.handlers, log.propagate = [handler], False
+    log.setLevel(logging.INFO)
 
 
 def _words(error):
@@ -133,9 +146,7 @@ def _parser():
     _add_solve(commands)
     _add_check(commands)
     _add_report(commands)
-    cli_decide.add_commands(
-        commands, cli_decide.Shell(_add, _open_study, _add_limits, _judging, _refuse_to_lose, _write)
-    )
+    cli_decide.add_commands(commands, cli_decide.Shell(_add, _add_study, _open, _refuse_to_lose, _write))
     _add_serve(commands)
     return parser
 
@@ -148,6 +159,27 @@ def _add(commands, name, run, **words):
     return command
 
 
+def _add_study(command):
+    """Add what a command is about: a preset or a study, and the specification that holds for it."""
+    command.add_argument(
+        "study",
+        metavar="PRESET|FILE.toml",
+        help=f"{', '.join(tig.PRESETS)}, or a study, as the dashboard and solve --study write it",
+    )
+    command.add_argument(
+        "--specification",
+        type=Path,
+        metavar="FILE.csv",
+        help="a table of bands [Hz] and greatest insertion gain [dB], in place of the study's specification",
+    )
+    command.add_argument(
+        "--limits",
+        choices=LIMITS,
+        help="what the limits of the specification are, the answer if it is asked; the sign of insertion "
+        "losses is turned",
+    )
+
+
 def _add_solve(commands):
     command = _add(
         commands,
@@ -156,11 +188,7 @@ def _add_solve(commands):
         help="Print insertion gain per band [dB] and natural frequencies [Hz] of a track.",
         epilog=_fields_help(),
     )
-    command.add_argument(
-        "track",
-        metavar="PRESET|FILE.toml",
-        help=f"{', '.join(tig.PRESETS)}, or a study, for its current design",
-    )
+    _add_study(command)
     command.add_argument(
         "--set",
         action="append",
@@ -213,6 +241,14 @@ def _add_solve(commands):
         metavar="FILE",
         help="write design and results as JSON, in SI and in full, - for standard output",
     )
+    command.add_argument(
+        "--study",
+        type=Path,
+        metavar="FILE.toml",
+        dest="saved",
+        help="write the track, as it was changed, as a study for the other commands and the dashboard, - for "
+        "standard output",
+    )
     _add_force(command)
 
 
@@ -224,14 +260,7 @@ def _add_check(commands):
         help="Hold a study's designs against its specification; exit with 1 if any fails.",
         epilog="Checked are the current design and the pinned designs that are shown, not the hidden ones.",
     )
-    command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
-    command.add_argument(
-        "--specification",
-        type=Path,
-        metavar="FILE.csv",
-        help="check against this table of bands [Hz] and greatest insertion gain [dB] instead",
-    )
-    _add_limits(command)
+    _add_study(command)
     command.set_defaults(cut_off=CUT_OFF)
     _add_fidelity(command)
 
@@ -244,10 +273,14 @@ def _add_report(commands):
         help="Write a report of a study as one HTML file.",
         epilog="Reported are the current design and the pinned designs that are shown.",
     )
-    command.add_argument("study", type=Path, metavar="FILE.toml", help="a study")
+    _add_study(command)
     command.add_argument(
         "output", type=Path, metavar="OUT.html", help="where the report is written, - for standard output"
     )
+    for name in ("project", "client", "author"):
+        command.add_argument(
+            f"--{name}", default="", metavar="NAME", help=f"name of the {name}, for the report's header"
+        )
     command.add_argument(
         "--ladder",
         action="store_true",
@@ -264,7 +297,6 @@ def _add_report(commands):
         choices=tig.GROUNDS,
         help=f"generic ground of the same; {left_out.OPENING_GROUND} unless given",
     )
-    _add_limits(command)
     _add_fidelity(command)
     _add_force(command)
 
@@ -277,15 +309,6 @@ def _add_serve(commands):
 def _add_fidelity(command):
     command.add_argument(
         "--fidelity", choices=FIDELITIES, default=FIDELITIES[0], help=f"{FIDELITIES[0]} unless given"
-    )
-
-
-def _add_limits(command):
-    command.add_argument(
-        "--limits",
-        choices=LIMITS,
-        help="what the limits of the specification are, the answer if it is asked; the sign of insertion "
-        "losses is turned",
     )
 
 
@@ -320,12 +343,14 @@ def _port(text):
 
 
 def _solve(options):
-    outputs = [path for path in (options.csv, options.json) if path is not None]
+    outputs = [path for path in (options.csv, options.json, options.saved) if path is not None]
     if outputs.count(STANDARD_OUTPUT) > 1:
-        raise CommandError("--csv - --json -: standard output takes one of them")
+        raise CommandError("--csv -, --json -, --study -: standard output takes one of them")
     for path in outputs:
-        _refuse_to_lose(path, options.force, options.track)
-    study = _track(options.track)
+        _refuse_to_lose(path, options.force, options.study)
+    if options.saved is None and (options.specification or options.limits):
+        raise CommandError("--specification and --limits go into the study that is written: give --study too")
+    study = _open(options, judges=False)
     view, load = study.view, _load(study.load, options)
     changed = study.design.replace(**_changes(options))
     solution = tig.solve(
@@ -344,7 +369,16 @@ def _solve(options):
         _write(options.csv, _solution_csv(study, solution, gain, bands, statics))
     if options.json is not None:
         _write(options.json, _solution_json(solution, gain, notes, statics))
+    if options.saved is not None:
+        _write(options.saved, _changed_study(study, solution, bands, load).to_toml())
     return 0
+
+
+def _changed_study(study, solution, bands, load):
+    """Return a study with the design, the definition, the bands and the wheels of the command line."""
+    gain = solution.gain
+    view = dataclasses.replace(study.view, reference=gain.reference, summation=gain.summation, bands=bands)
+    return dataclasses.replace(study, design=solution.design, view=view, load=load)
 
 
 def _load(load, options):
@@ -352,15 +386,26 @@ def _load(load, options):
     changes = {}
     for name, text in (("wheel_load", options.wheel_load), ("wheelbase", options.wheelbase)):
         if text is not None:
-            low, high, unit = RANGES[name]
             try:
-                changes[name] = read_number(text, unit)
+                changes[name] = field_number(name, text)
             except NumberError as error:
-                raise CommandError(f"{error}; {name} is a number from {low:g} to {high:g} {unit}") from None
+                raise CommandError(f"--{name.replace('_', '-')} {error}") from None
     return dataclasses.replace(load, **changes)
 
 
-def _track(name):
+def _open(options, judges=True):
+    """Return the study that a command is about, with the specification that its options give."""
+    opened = _named_study(options.study)
+    if options.specification is not None:
+        specification = _open_specification(options.specification, options.limits)
+        opened = dataclasses.replace(opened, specification=specification)
+    elif opened.specification is not None and judges:
+        specification = _judging(opened.specification, options.limits, options.study)
+        opened = dataclasses.replace(opened, specification=specification)
+    return opened
+
+
+def _named_study(name):
     """Return the study that a preset's name or a study's path stands for."""
     if name in tig.PRESETS:
         return tig.Study(tig.PRESETS[name], preset=name)
@@ -386,12 +431,10 @@ def _change(text):
     if field not in RANGES:
         # the design says which fields there are
         return field, value
-    low, high, unit = RANGES[field]
     try:
-        return field, read_number(value, unit)
+        return field, field_number(field, value)
     except NumberError as error:
-        allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
-        raise CommandError(f"--set {text}: {error}; {field} is {allowed}") from None
+        raise CommandError(f"--set {text}: {error}") from None
 
 
 def _changes(options):
@@ -459,12 +502,8 @@ def _judging(specification, limits, path):
 
 
 def _check(options):
-    opened = _open_study(options.study)
-    if options.specification is not None:
-        specification = _open_specification(options.specification, options.limits)
-    elif opened.specification is not None:
-        specification = _judging(opened.specification, options.limits, options.study)
-    else:
+    opened = _open(options)
+    if opened.specification is None:
         raise CommandError(
             f"{options.study}: the study has no specification; add one, or give --specification FILE.csv"
         )
@@ -477,8 +516,8 @@ def _check(options):
             reference=reference_for(pinned.design, view.reference),
             summation=view.summation,
         )
-        deflection = tig.analysis.limited_deflection(specification, pinned.design)
-        verdict = specification.check(solution.insertion_gain, deflection)
+        deflection = tig.analysis.limited_deflection(opened.specification, pinned.design)
+        verdict = opened.specification.check(solution.insertion_gain, deflection)
         statics = opened.load.response(pinned.design)
         sys.stdout.write(f"{pinned.name}: {verdict}\n    {_statics_text(statics)}\n")
         complies &= verdict.complies
@@ -487,8 +526,12 @@ def _check(options):
 
 def _report(options):
     # plots are slow to load, and no other command draws any
-    from dashboard.report.html_report import html_report
+    from dashboard.report.html_report import Particulars, html_report
 
+    try:
+        particulars = Particulars(options.project, options.client, options.author)
+    except ValueError as error:
+        raise CommandError(f"--{error}") from None
     if options.output != STANDARD_OUTPUT and options.output.suffix.lower() not in PAGES:
         page = options.output.with_suffix(".html")
         raise CommandError(
@@ -496,11 +539,8 @@ def _report(options):
         )
     if not options.ladder and (options.vehicle or options.ground):
         raise CommandError("--vehicle and --ground are those of the ladder: give --ladder too")
-    opened = _open_study(options.study)
+    opened = _open(options)
     _refuse_to_lose(options.output, options.force, options.study)
-    if opened.specification is not None:
-        limits = _judging(opened.specification, options.limits, options.study)
-        opened = dataclasses.replace(opened, specification=limits)
     ladder = _ladder(opened, options) if options.ladder else None
     summaries = {
         design: _summary(design, options.fidelity)
@@ -517,6 +557,7 @@ def _report(options):
         version=tig.__version__,
         pages=pages,
         left_out=ladder,
+        particulars=particulars,
     )
     _write(options.output, report)
     if options.output != STANDARD_OUTPUT:
@@ -602,8 +643,7 @@ def _solution_csv(study, solution, gain, bands, statics):
     # slow to load, and nobody waits for it who writes no table
     from dashboard.persistence.exports import gain_csv
 
-    view = dataclasses.replace(study.view, reference=gain.reference, summation=gain.summation, bands=bands)
-    study = dataclasses.replace(study, design=solution.design, view=view)
+    study = _changed_study(study, solution, bands, study.load)
     result = DesignResult(
         current_design(study.design),
         SolutionSummary.of(solution, 0.0),

@@ -1,8 +1,8 @@
 """Commands that choose between designs: range, sensitivity, tolerance, map and find.
 
 They ask ``trackig_core.decide`` about the current design of a study, or a pinned one, and print a table and a
-sentence to standard output. SI units. How far they are goes to standard error. Ctrl+C ends them; a search
-then leaves the best so far.
+sentence to standard output. Numbers are taken with a unit, or in SI. How far they are goes to standard error.
+Ctrl+C ends them; a search then leaves the best so far.
 
 Exit codes are those of :mod:`dashboard.cli`: 1 when nothing complies.
 """
@@ -13,9 +13,11 @@ import dataclasses
 import datetime
 import io
 import json
+import re
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -23,12 +25,16 @@ from functools import partial
 from pathlib import Path
 
 import trackig_core as tig
+from dashboard.cli_numbers import field_cost, field_number, field_range, read_share
+from dashboard.fields import ASKED_FIELDS
 from dashboard.session.heading import Heading, current_name
 from trackig_core.levels.insertion_gain import reference_for
 from trackig_core.levels.specification import not_judged_text
+from trackig_core.names import brief
 from trackig_core.solver import FIDELITIES
 from trackig_core.study.catalogue import KINDS
-from trackig_core.track.fields import GIVEN, SEARCHED_RANGES
+from trackig_core.track.fields import RANGES, SEARCHED_RANGES
+from trackig_core.typed_numbers import NumberError, find_unit, read_number
 
 FAILED, STOPPED = 1, 130
 """Exit codes: nothing complies; the user pressed Ctrl+C."""
@@ -43,6 +49,10 @@ MOST_BYTES = 10_000_000
 """Size that a table of specimens or products may have [bytes]."""
 
 
+SELDOM = 10.0
+"""Time between two lines on how far it is, in a file or for another program [s]."""
+
+
 class DecideError(ValueError):
     """A question cannot be asked."""
 
@@ -55,12 +65,10 @@ class Shell:
     ----------
     add : callable
         Adds a command: (commands, name, run, help=...).
+    add_study : callable
+        Adds to a command what it is about: (command).
     open_study : callable
-        From a path to a study.
-    add_limits : callable
-        Adds the option that says what the limits of a specification are.
-    judging : callable
-        Returns a specification of which that is known, or refuses: (specification, limits, path).
+        From the options of a command to the study that it is about.
     refuse_to_lose : callable
         Refuses to write over a file: (path, force, file that is read).
     write : callable
@@ -68,9 +76,8 @@ class Shell:
     """
 
     add: Callable
+    add_study: Callable
     open_study: Callable
-    add_limits: Callable
-    judging: Callable
     refuse_to_lose: Callable
     write: Callable
 
@@ -93,15 +100,14 @@ def _command(commands, shell, name, kind_of=None, **words):
     """Add a command that asks a question of its name, or of the kind that its options make it."""
     kind_of = kind_of or (lambda _: name)
     command = shell.add(commands, name, lambda options: _run(shell, kind_of(options), options), **words)
-    command.add_argument("study", type=Path, metavar="STUDY", help="a study, FILE.toml")
+    shell.add_study(command)
     command.add_argument("--design", metavar="NAME", help="a pinned design, in place of the current one")
     command.add_argument(
         "--max-deflection",
-        type=_number,
-        metavar="M",
-        help="greatest rail deflection [m], in place of the specification's own",
+        type=_deflection,
+        metavar="LENGTH",
+        help="greatest rail deflection, such as 2mm, in place of the specification's own; in m unless said",
     )
-    shell.add_limits(command)
     command.add_argument(
         "--scheduler", metavar="ADDRESS", help="solve on a Dask cluster, such as tcp://10.0.0.5:8786"
     )
@@ -128,11 +134,27 @@ def _add_repeated(command, option, action="append", **words):
     command.add_argument(option, action=action, **words)
 
 
+def _fields_help():
+    """Return the fields about which is asked, with the ranges that are searched of each."""
+    lines = ["fields, and the range that is searched of each unless another is given:"]
+    lines += [
+        f"  {name:31}{field.low:g} to {field.high:g} {field.unit}".rstrip()
+        for name, field in ASKED_FIELDS.items()
+        if name in SEARCHED_RANGES
+    ]
+    lines.append("(of suspension and ground, if the design has them; of speed, if it has several axles)")
+    return "\n".join(lines)
+
+
 FIELD_HELP = "this field, such as boot_stiffness; of vehicle and site, such as wheel_mass, only when named"
 
 
 def _add_range(add):
-    command = add("range", help="Print where the design complies along each field, all others held.")
+    command = add(
+        "range",
+        help="Print where the design complies along each field, all others held.",
+        epilog=_fields_help(),
+    )
     _add_repeated(command, "--field", dest="fields", metavar="FIELD", help=FIELD_HELP)
     _add_ranges(command)
 
@@ -167,11 +189,7 @@ def _add_map(add):
     command = add(
         "map",
         help="Compute figures over two fields; exit with 1 if no design of the map complies.",
-        epilog=(
-            "The table goes to --csv; printed is what it says in one sentence. Fields are numbers of the "
-            "design, such as boot_stiffness, and by path those of what stands on and under it: "
-            "ground.stiffness, suspension.primary_damping."
-        ),
+        epilog=f"The figures of all points go to --csv.\n\n{_fields_help()}",
     )
     command.add_argument("x_field", metavar="X_FIELD")
     command.add_argument("y_field", metavar="Y_FIELD")
@@ -185,7 +203,9 @@ def _add_map(add):
 
 def _add_find(add):
     command = add(
-        "find", help="Search for designs that comply, and the best of them; exit with 1 if none does."
+        "find",
+        help="Search for designs that comply, and the best of them; exit with 1 if none does.",
+        epilog=_fields_help(),
     )
     _add_repeated(
         command,
@@ -193,7 +213,8 @@ def _add_find(add):
         _ByField,
         type=_free,
         metavar="FIELD[=LOW..HIGH]",
-        help="a field that is free, over its slider's range unless one is given [SI]",
+        help="a field that is free, over its slider's range unless one is given: boot_stiffness=5..40kN/mm; "
+        "in SI without a unit",
     )
     _add_repeated(
         command,
@@ -201,7 +222,8 @@ def _add_find(add):
         type=Path,
         default=[],
         metavar="FILE.csv",
-        help="a catalogue: one product a row, fields [SI] and cost in columns",
+        help="a catalogue: one product a row, fields and cost in columns, headed boot_stiffness [kN/mm]; in "
+        "SI where the header names no unit",
     )
     _add_repeated(
         command,
@@ -215,6 +237,9 @@ def _add_find(add):
         "--catalogue", type=Path, metavar="FILE.toml", help="that catalogue, in place of the bundled one"
     )
     command.add_argument("--rails", metavar="NAME,NAME", help="rails to choose from, such as 54E1,60E1")
+    command.add_argument(
+        "--all", action="store_true", help="print all best designs, not only ten of them, spread evenly"
+    )
     _add_repeated(
         command,
         "--objective",
@@ -226,9 +251,10 @@ def _add_find(add):
         command,
         "--cost",
         _ByField,
-        type=_field_number,
-        metavar="FIELD=PER_UNIT",
-        help="cost per SI unit of a field, for the objective cost",
+        type=_cost,
+        metavar="FIELD=COST",
+        help="cost per unit of a field, for the objective cost: block_mass=2.5/kg, boot_stiffness='0.3 per "
+        "kN/mm'; per SI unit where none is named",
     )
     command.add_argument(
         "--population", type=int, metavar="N", help="designs of a generation, 100 by default"
@@ -245,7 +271,7 @@ def _add_ranges(command):
         type=_range,
         dest="ranges",
         metavar="FIELD=LOW..HIGH",
-        help="range of a field [SI], in place of its slider's",
+        help="range of a field, in place of its slider's: boot_stiffness=5..40kN/mm; in SI without a unit",
     )
 
 
@@ -264,7 +290,8 @@ def _add_scatter(command, samples):
         "--production",
         type=Path,
         metavar="FILE.csv",
-        help="measured values, one specimen a row, fields [SI] in columns",
+        help="measured values, one specimen a row, fields in columns, headed boot_stiffness [kN/mm]; in SI "
+        "where the header names no unit",
     )
     command.add_argument("--samples", type=int, metavar="N", help=samples)
     _add_seed(command)
@@ -296,7 +323,7 @@ def _add_parquet(command):
     )
 
 
-def _settings(shell, kind, options):
+def _settings(study, kind, options):
     """Return the settings of a question that were given: options go by the names of what they set."""
     # slow to load, and no other command needs it
     from trackig_core.decide import questions
@@ -305,7 +332,7 @@ def _settings(shell, kind, options):
     if given.get("production") is not None:
         given["production"] = _table(options.production)
     if "choices" in given:
-        given["choices"] = _choices(shell, options)
+        given["choices"] = _choices(study, options)
     return {name: value for name, value in given.items() if value not in (None, {}, [])}
 
 
@@ -316,7 +343,8 @@ def _run(shell, kind, options):
     for path in outputs:
         shell.refuse_to_lose(path, options.force, options.study)
     try:
-        return _answer(shell, kind, _settings(shell, kind, options), options)
+        study = shell.open_study(options)
+        return _answer(shell, study, kind, _settings(study, kind, options), options)
     except tig.SolveCancelled:
         return STOPPED
     except (tig.DesignError, tig.StudyError, DecideError):
@@ -326,19 +354,21 @@ def _run(shell, kind, options):
         raise DecideError(error.args[0]) from error
 
 
-def _answer(shell, kind, settings, options):
+def _answer(shell, study, kind, settings, options):
     # slow to load, and no other command needs them
+    from dashboard.cli_tables import answer_rows
     from dashboard.persistence.exports import answer_csv
     from trackig_core.decide import Answer, Question
+    from trackig_core.decide.questions import KINDS as QUESTIONS
 
-    study = shell.open_study(options.study)
     if getattr(options, "parquet", None) is not None:
         return _job(study, kind, settings, options)
     if options.max_deflection is not None:
         settings["max_deflection"] = options.max_deflection
-    if study.specification is not None:
-        judging = shell.judging(study.specification, options.limits, options.study)
-        study = dataclasses.replace(study, specification=judging)
+    if study.specification is None and QUESTIONS[kind].needs_specification:
+        raise DecideError(
+            f"{options.study}: no specification to hold designs against; give --specification FILE.csv"
+        )
     design = _design(study, options.design)
     question = Question(
         kind=kind,
@@ -355,7 +385,9 @@ def _answer(shell, kind, settings, options):
         result = question.ask(**how)
     table, answer = result.to_dataframe(), Answer.of(question, result)
     if STANDARD_OUTPUT not in (options.csv, options.json):
-        sys.stdout.write(_text(result, table, study.specification))
+        rows = answer_rows(result, getattr(options, "all", False))
+        sentences = "\n".join(filter(None, _sentences(result, study.specification)))
+        sys.stdout.write(f"{rows}\n\n{sentences}\n")
     if options.csv is not None:
         name = current_name(study) if options.design is None else options.design
         heading = Heading.of_question(study, question, name, datetime.date.today())
@@ -421,7 +453,7 @@ def _anything_complies(result):
 
 UNLIMITED = (
     "no limit of rail deflection is set, and softer always isolates more, so that the search runs to the "
-    "softest designs of its ranges; give --max-deflection, in m, or limit it in the specification"
+    "softest designs of its ranges; give --max-deflection, or limit it in the specification"
 )
 
 
@@ -432,51 +464,10 @@ def _is_unlimited(question):
     return not limited and "max_deflection" not in question.settings
 
 
-def _text(result, table, specification):
-    """Return what is printed: the rows that fit on a screen, the sentence, and limits that are not judged."""
+def _sentences(result, specification):
+    """Return what is said of an answer: its sentence, what it means, and limits that are not judged."""
     rest = "" if specification is None else not_judged_text(specification.not_judged)
-    explained = getattr(result, "explained", "")
-    sentences = (str(result), explained, rest and f"Limits of the specification: {rest}.")
-    return "\n".join([_rows(result, table), "", *filter(None, sentences)]) + "\n"
-
-
-def _rows(result, table):
-    """Return the rows of a result that a person reads."""
-    from trackig_core import decide
-
-    if isinstance(result, decide.FoundDesigns):
-        columns = [name for name in table if name in result.free or name in result.objectives]
-        table = table.assign(deflection_mm=1e3 * result.deflections)
-        columns += [] if "deflection" in result.objectives else ["deflection_mm"]
-        columns += [name for name in ("slack", "governed_by") if name in table]
-        places = result.front if result.front.size else [result.closest]
-        table = table.loc[places, columns]
-    elif isinstance(result, decide.ToleranceResult):
-        table = _tolerance_rows(result)
-    elif isinstance(result, decide.DesignMap):
-        table = table.drop(columns=[result.x_field, result.y_field]).describe().loc[["min", "50%", "max"]]
-        return table.to_string(float_format="{:.5g}".format)
-    elif isinstance(result, decide.Sensitivity):
-        table = table[["field", "change", *result.figures]]
-    if table.empty:
-        return "(no row)"
-    if "field" in table:
-        table = table.assign(field=[_marked(name) for name in table["field"]])
-    return table.to_string(index=False, float_format="{:.5g}".format)
-
-
-def _marked(name):
-    """Return the name of a field, and whose it is if not the track's."""
-    return f"{name} ({GIVEN[name]})" if name in GIVEN else name
-
-
-def _tolerance_rows(result):
-    """Return percentiles of insertion gain, band by band."""
-    import pandas as pd
-
-    columns = {"band_hz": tig.BAND_LABELS}
-    columns |= {f"{share}_percent": gain for share, gain in zip((5, 50, 95), result.percentiles, strict=True)}
-    return pd.DataFrame(columns)
+    return str(result), getattr(result, "explained", ""), rest and f"Limits of the specification: {rest}."
 
 
 def _json(answer, table):
@@ -546,6 +537,39 @@ def pages_of(answers):
     return pages
 
 
+class _Progress:
+    """Tells how far something is: on a screen in one line that is written over, elsewhere seldom.
+
+    Parameters
+    ----------
+    stream : file
+        Where it is told.
+    """
+
+    def __init__(self, stream):
+        self._stream, self._is_screen = stream, stream.isatty()
+        self._shown, self._last = None, time.monotonic()
+
+    def __call__(self, done):
+        """Tell how much is done, 0 to 1."""
+        text = f"{10 * int(10 * done)} %"
+        if text == self._shown:
+            return
+        if self._is_screen:
+            self._stream.write(f"\r{text}")
+        elif time.monotonic() - self._last >= SELDOM:
+            self._stream.write(f"{text}\n")
+        else:
+            return
+        self._stream.flush()
+        self._shown, self._last = text, time.monotonic()
+
+    def end(self):
+        """End the line on a screen, so that what follows stands below it."""
+        if self._is_screen and self._shown is not None:
+            self._stream.write("\n")
+
+
 @contextmanager
 def watched(scheduler):
     """Tell on standard error how far it is, and let Ctrl+C ask it to end; a second Ctrl+C ends it at once."""
@@ -556,70 +580,75 @@ def watched(scheduler):
             raise KeyboardInterrupt
         stop.set()
 
-    shown = -1
-
-    def progress(done):
-        nonlocal shown
-        tenths = int(10 * done)
-        if tenths > shown:
-            shown = tenths
-            sys.stderr.write(f"{10 * tenths} %\n")
-            sys.stderr.flush()
-
+    progress = _Progress(sys.stderr)
     before = signal.signal(signal.SIGINT, interrupted)
     try:
         yield {"progress": progress, "cancelled": stop.is_set, "scheduler": scheduler}
     finally:
         signal.signal(signal.SIGINT, before)
+        progress.end()
 
 
-def _number(text):
+def _in_argument(read, *given):
+    """Return what a reader makes of an option's text; where it makes none, argparse says so."""
     try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r}: give a number") from None
+        return read(*given)
+    except NumberError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def _deflection(text):
+    """Return the greatest deflection [m]."""
+    return _in_argument(field_number, "rail_deflection_limit", text)
 
 
 def _share(text):
-    """Return a share given as 0.1 or as 10%."""
-    return _number(text[:-1]) / 100 if text.endswith("%") else _number(text)
+    """Return a share [-] given as 0.1 or as 10%."""
+    return _in_argument(read_share, text)
 
 
 def _pair(text, example):
     """Return the field and the rest of FIELD=REST."""
-    field, equals, rest = text.partition("=")
+    field, equals, rest = (part.strip() for part in text.partition("="))
     if not equals:
         raise argparse.ArgumentTypeError(f"{text[:40]!r}: write {example}")
     return field, rest
 
 
-def _field_number(text):
-    field, number = _pair(text, "FIELD=NUMBER, such as block_mass=2.5")
-    return field, _number(number)
+def _cost(text):
+    field, given = _pair(text, "FIELD=COST, such as block_mass=2.5/kg")
+    return field, _in_argument(field_cost, field, given)
 
 
 def _tolerance(text):
     """Return a field, and its tolerance as plain values."""
     field, given = _pair(text, "FIELD=SHARE, such as boot_stiffness=10%")
     kind, colon, share = given.rpartition(":")
-    return field, {kind: _share(share)} if colon else _share(share)
+    try:
+        value = read_share(share)
+    except NumberError as error:
+        raise argparse.ArgumentTypeError(f"{error}; a tolerance is a share, such as 10% or 0.1") from None
+    return field, {kind.strip(): value} if colon else value
 
 
 def _range(text):
-    field, ends = _pair(text, "FIELD=LOW..HIGH, such as boot_stiffness=10e6..40e6")
-    low, dots, high = ends.partition("..")
-    if not dots:
-        raise argparse.ArgumentTypeError(f"{text[:60]!r}: write FIELD=LOW..HIGH")
-    return field, [_number(low), _number(high)]
+    """Return a field, and both ends of its range [SI]."""
+    field, ends = _pair(text, "FIELD=LOW..HIGH, such as boot_stiffness=5..40 kN/mm")
+    _check_searched(field)
+    return field, _in_argument(field_range, field, ends)
 
 
 def _free(text):
-    """Return a field, and its range or that of its slider."""
+    """Return a field, and its range or that of its slider [SI]."""
     if "=" in text:
         return _range(text)
-    if text not in SEARCHED_RANGES:
-        raise argparse.ArgumentTypeError(f"{text[:40]!r}: fields are {', '.join(SEARCHED_RANGES)}")
+    _check_searched(text)
     return text, list(SEARCHED_RANGES[text])
+
+
+def _check_searched(field):
+    if field not in SEARCHED_RANGES:
+        raise argparse.ArgumentTypeError(f"{field[:40]!r}: fields are {', '.join(SEARCHED_RANGES)}")
 
 
 def _points(text):
@@ -630,13 +659,13 @@ def _points(text):
         raise argparse.ArgumentTypeError(f"{text[:40]!r}: write NXxNY, such as 200x200") from None
 
 
-def _choices(shell, options):
+def _choices(study, options):
     """Return what is chosen from tables of products, a catalogue and rails."""
     choices = {path.stem: _products(path) for path in options.choose}
     if options.catalogue is not None and not options.components:
         raise DecideError(f"--catalogue: name with --component what is chosen: {', '.join(KINDS)}")
     if options.components:
-        design = _design(shell.open_study(options.study), options.design)
+        design = _design(study, options.design)
         catalogue = _catalogue(options.catalogue)
         choices |= {
             kind: [each.choice(design) for each in catalogue.of_kind(kind).values()]
@@ -678,23 +707,38 @@ def _table(path):
     rows = [row for row in rows if any(cell.strip() for cell in row) and not row[0].startswith("#")]
     if len(rows) < 2:
         raise DecideError(f"{path}: give a header of fields and one row or more")
-    header = [cell.strip() for cell in rows[0]]
-    columns = {name: [] for name in header}
+    header = [_column(path, cell) for cell in rows[0]]
+    columns = {field: [] for field, _ in header}
     for number, row in enumerate(rows[1:], start=2):
         if len(row) != len(header):
             raise DecideError(
                 f"{path}, row {number}: {len(row)} values, and {len(header)} fields in the header"
             )
-        for field, cell in zip(header, row, strict=True):
-            columns[field].append(_cell(path, number, field, cell.strip()))
+        for (field, unit), cell in zip(header, row, strict=True):
+            columns[field].append(_cell(path, number, field, unit, cell.strip()))
     return columns
 
 
-def _cell(path, number, field, cell):
-    """Return a cell as a number, or a rail's name as it is."""
+def _column(path, head):
+    """Return the field that a header names, and the unit of its numbers, in SI where none is named."""
+    name, written = re.fullmatch(r"([^\[(,]*)[\[(,]?(.*?)[\])]?", head.strip()).groups()
+    field = name.strip().lower().replace(" ", "_")
+    if field not in RANGES:  # a rail, a cost in any currency, or what the core refuses
+        return name.strip(), find_unit("")
+    wanted = find_unit(RANGES[field][2])
+    unit = find_unit(written.strip()) if written.strip() else wanted
+    if unit is None or unit.quantity != wanted.quantity:
+        like = f", such as {wanted.name}" if wanted.name else ": it has none"
+        raise DecideError(f"{path}: {brief(head)} names no unit of {field}{like}")
+    return field, unit
+
+
+def _cell(path, number, field, unit, cell):
+    """Return a cell as a number in SI, or a rail's name as it is."""
     if field == "rail":
         return cell
     try:
-        return float(cell)
-    except ValueError:
-        raise DecideError(f"{path}, row {number}, {field}: {cell[:40]!r} is no number") from None
+        given = read_number(cell, unit.name)
+    except NumberError as error:
+        raise DecideError(f"{path}, row {number}, {field}: {error}") from None
+    return unit.convert(given, find_unit(RANGES[field][2] if field in RANGES else ""))

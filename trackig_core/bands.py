@@ -100,6 +100,10 @@ class Bands:
         """Nominal mid-band frequencies, as text (bands,) [Hz]."""
         return tuple(f"{_NOMINAL[n % 10] * 10.0 ** (n // 10):g}" for n in self.numbers)
 
+    def __str__(self) -> str:
+        """Return width and range of the bands."""
+        return f"{self.words} bands from {self.labels[0]} to {self.labels[-1]} Hz"
+
 
 ONE_THIRD_OCTAVES = Bands(7, 27)
 """The paper's bands: one-third octaves from 5 Hz to 500 Hz."""

@@ -71,7 +71,10 @@ class _KernelCache(caching.FunctionCache):
     def load_overload(self, signature: Any, context: Any) -> Any:
         """Return compiled code, or None if there is none that can be read."""
         try:
-            return super().load_overload(signature, context)
+            found = super().load_overload(signature, context)
+            if found is None:
+                _say_compiling()
+            return found
         except Exception as error:  # a damaged file may be at fault in any way
             _say(
                 f"compiled code in {self.cache_path} cannot be read and is made anew ({type(error).__name__})"
@@ -102,6 +105,11 @@ def _kernels_stamp() -> tuple[tuple[str, int, int], ...]:
 @cache
 def _say(words: str) -> None:
     _log.warning("%s", words)
+
+
+@cache
+def _say_compiling() -> None:
+    _log.info("kernels are compiled, as at every first run: about a minute of one processor, once")
 
 
 def njit(*, cache: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:

@@ -8,7 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from trackig_core.bands import ONE_THIRD_OCTAVES, Bands
+from trackig_core.words import extremes, hertz, quantity, span
 
 if TYPE_CHECKING:
     from trackig_core.arrays import RealArray
@@ -65,6 +68,13 @@ class TimeHistory:
     decayed: bool
     last_onset: float = 0.0
 
+    def __str__(self) -> str:
+        """Return length and largest force of the record, in words."""
+        force = quantity(float(np.abs(self.support_force @ self.multiplicity).max()), "N", 3)
+        length = quantity(float(self.time[-1] - self.time[0]), "s", 3)
+        end = "" if self.decayed else "; it had not died down at the end"
+        return f"{self.time.size} samples over {length}, force into the ground up to {force}{end}"
+
 
 @dataclass(frozen=True, eq=False)
 class ForceSpectrum:
@@ -86,6 +96,12 @@ class ForceSpectrum:
     energy: RealArray = field(repr=False)
     coherent_energy: RealArray = field(repr=False)
     step: float
+
+    def __str__(self) -> str:
+        """Return where it is known, and after which step."""
+        step = quantity(self.step, "m")
+        where = f"{self.frequency.size} frequencies, {span(self.frequency, 'Hz')}"
+        return f"force spectrum at {where}, after a step of {step}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +129,11 @@ class InsertionGain:
     reference: str
     summation: str
     bands: Bands = ONE_THIRD_OCTAVES
+
+    def __str__(self) -> str:
+        """Return its definition, and least and greatest level [dB]."""
+        definition = f"reference {self.reference}, summation {self.summation}"
+        return f"insertion gain ({definition}) from {extremes(self.levels, self.bands.labels)}"
 
 
 @dataclass(frozen=True)
@@ -145,3 +166,16 @@ class NaturalFrequencies:
     cut_on: tuple[float, ...]
     observed_loaded_track: float | None = None
     observed_coupled_block: float | None = None
+
+    def __str__(self) -> str:
+        """Return the frequencies that there are [Hz]."""
+        words = {
+            "loaded track": self.loaded_track,
+            "coupled block": self.coupled_block,
+            "wheel on rigid blocks": self.wheel_on_rigid_blocks,
+            "block on boot": self.block_on_boot,
+            "observed loaded track": self.observed_loaded_track,
+            "observed coupled block": self.observed_coupled_block,
+        }
+        found = [f"{name} {hertz([each])}" for name, each in words.items() if each is not None]
+        return ", ".join([*found, f"cut-on {hertz(self.cut_on)}"])

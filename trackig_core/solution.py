@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from trackig_core.bands import BAND_LABELS, chosen_bands
 from trackig_core.levels.insertion_gain import insertion_gain, own_reference
 from trackig_core.track.design import measured_curves
+from trackig_core.words import extremes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -225,11 +226,7 @@ class Solution:
         summary = {"Fidelity": self.fidelity, "Loaded track": f"{frequencies.loaded_track:.1f} Hz"}
         if frequencies.coupled_block is not None:
             summary["Coupled block"] = f"{frequencies.coupled_block:.1f} Hz"
-        lowest, highest = int(levels.argmin()), int(levels.argmax())
-        summary["Insertion gain"] = (
-            f"{levels[lowest]:.1f} dB at {self.band_labels[lowest]} Hz to "
-            f"{levels[highest]:.1f} dB at {self.band_labels[highest]} Hz"
-        )
+        summary["Insertion gain"] = extremes(levels, self.band_labels)
         return summary
 
     def __repr__(self) -> str:

@@ -6,7 +6,7 @@ file forbids scripts and requests to whoever opens it. A report never solves: a 
 named as left out.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 
 import jinja2
 import numpy as np
@@ -22,6 +22,7 @@ from dashboard.session.pins import current_design, distinct_colours, shown_desig
 from dashboard.session.results import DesignResult
 from dashboard.session.special import input_text
 from trackig_core.levels.insertion_gain import reference_for
+from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 
 FREQUENCIES = (
     ("Loaded track", lambda natural: natural.loaded_track),
@@ -44,7 +45,39 @@ TEMPLATES = jinja2.Environment(
 """Templates of what is printed; whatever they show is escaped."""
 
 
-def html_report(study, summaries, *, date, version, pages=None, left_out=None):
+@dataclass(frozen=True)
+class Particulars:
+    """Whose report it is; what is empty is left out.
+
+    Parameters
+    ----------
+    project, client, author : str
+        Names, which the report's header shows.
+
+    Raises
+    ------
+    ValueError
+        If one is neither empty nor a name.
+    """
+
+    project: str = ""
+    client: str = ""
+    author: str = ""
+
+    def __post_init__(self):
+        """Check every name once."""
+        for name, value in self.given:
+            if not is_name(value, LONGEST_TITLE):
+                raise ValueError(f"{name.lower()} = {brief(value)}: give {allowed(LONGEST_TITLE)}")
+
+    @property
+    def given(self):
+        """What each is called that is not empty, and what it is (list of (str, str))."""
+        values = ((each.name.capitalize(), getattr(self, each.name)) for each in fields(self))
+        return [(name, value) for name, value in values if value != ""]
+
+
+def html_report(study, summaries, *, date, version, pages=None, left_out=None, particulars=None):
     """Return a report of a study.
 
     Parameters
@@ -61,6 +94,8 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
         What is shown of the study's answers by their digests; of others there are words alone.
     left_out : dashboard.teaching.left_out.LeftOut, optional
         What the simplified model leaves out of the current design, where that was asked for.
+    particulars : Particulars, optional
+        Project, client and author.
 
     Returns
     -------
@@ -81,6 +116,7 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None):
     limits = in_force(study)
     return TEMPLATES.get_template("report.html").render(
         study=study,
+        particulars=[] if particulars is None else particulars.given,
         date=f"{date.day} {date:%B %Y}",
         version=version,
         results=results,

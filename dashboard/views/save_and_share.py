@@ -7,6 +7,7 @@ import asyncio
 import datetime
 import html
 from functools import partial
+from types import MappingProxyType
 
 import panel as pn
 import panel_material_ui as pmui
@@ -40,14 +41,7 @@ class SaveAndShare(Tab):
     def __init__(self, snapshot, exchange):
         super().__init__()
         self._snapshot, self._exchange, self._assessment = snapshot, exchange, snapshot.assessment
-        self.study_name = pmui.TextInput(
-            label="Name of the study",
-            value=self._assessment.title,
-            max_length=LONGEST_TITLE,
-            size="small",
-            width=320,
-            margin=(6, 12, 6, 0),
-        )
+        self.study_name = _name_box("Name of the study", self._assessment.title, width=320)
         self.message = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(0, 12, 4, 12))
         self.copy = copy_button()
         self.save = button("Save study", "save", on_click=self._save_study)
@@ -56,6 +50,11 @@ class SaveAndShare(Tab):
         self.force = button("Force, CSV", "download", on_click=self._save_force)
         self.report = button("Report, HTML", "description", on_click=self._save_report)
         self.left_out = pmui.Switch(label=LEFT_OUT_LABEL, value=False, margin=(6, 12))
+        self.particulars = {
+            name: _name_box(f"{name.capitalize()}, on the report") for name in ("project", "client", "author")
+        }
+        for box in self.particulars.values():
+            box.param.watch(_check_name, "value")
         self.sheet = button("Data sheet, HTML", "article", on_click=self._save_sheet)
         self.sheet_design = None
         self._sheet_place = pmui.Row(margin=0)
@@ -74,11 +73,8 @@ class SaveAndShare(Tab):
 
     def _rename(self, event):
         title = event.new.strip()
-        if is_name(title, LONGEST_TITLE):
-            self.study_name.param.update(error_state=False, helper_text="")
+        if _tell_whether_name(self.study_name, title):
             self._assessment.title = title
-        else:
-            self.study_name.param.update(error_state=True, helper_text=f"give {allowed(LONGEST_TITLE)}")
 
     def _show_name(self, *_):
         self.study_name.param.update(value=self._assessment.title, error_state=False, helper_text="")
@@ -158,6 +154,7 @@ class SaveAndShare(Tab):
             summaries,
             self._snapshot.answers.pages,
             self.left_out.value,
+            {name: box.value.strip() for name, box in self.particulars.items() if not box.error_state},
         )
 
     async def _save_sheet(self, *_):
@@ -218,7 +215,11 @@ class SaveAndShare(Tab):
         groups = (
             ("Share", LINK_WORDS, [self.copy], ()),
             ("Study", STUDY_WORDS, [self.study_name, self.save, self.open], [self.message]),
-            ("Report and curves", CURVE_WORDS, [self.report, self.gain, self.force, self.left_out], ()),
+            (
+                *("Report and curves", CURVE_WORDS),
+                [self.report, self.gain, self.force, self.left_out, *self.particulars.values()],
+                (),
+            ),
             ("Data sheet", SHEET_WORDS, [self._sheet_place, self.sheet], ()),
             ("Pictures", PICTURE_WORDS, self.pictures.values(), ()),
         )
@@ -237,9 +238,12 @@ class SaveAndShare(Tab):
 # plots are slow to load, and nobody waits for them who wants none
 
 
-def write_report(study, summaries, pages, with_left_out=False):
-    """Return the report of a study, as of today (str), with what the simplified model leaves out or not."""
-    from dashboard.report.html_report import html_report
+def write_report(study, summaries, pages, with_left_out=False, particulars=MappingProxyType({})):
+    """Return the report of a study, as of today (str), with what the simplified model leaves out or not.
+
+    Particulars are names by what they are of: project, client, author.
+    """
+    from dashboard.report.html_report import Particulars, html_report
 
     found = None
     if with_left_out:
@@ -247,7 +251,15 @@ def write_report(study, summaries, pages, with_left_out=False):
             study.design, left_out.OPENING_VEHICLE, left_out.OPENING_GROUND, study.view.summation
         )
     today = datetime.date.today()
-    return html_report(study, summaries, date=today, version=tig.__version__, pages=pages, left_out=found)
+    return html_report(
+        study,
+        summaries,
+        date=today,
+        version=tig.__version__,
+        pages=pages,
+        left_out=found,
+        particulars=Particulars(**particulars),
+    )
 
 
 def write_sheet(result, heading, specification, source, measured):
@@ -262,6 +274,30 @@ def draw_picture(kind, form, results, heading, base, specification, measured):
     from dashboard.report.pictures import picture
 
     return picture(kind, form, results, heading, base=base, specification=specification, measured=measured)
+
+
+def _name_box(label, value="", width=200):
+    """Return a box for a name."""
+    return pmui.TextInput(
+        label=label,
+        value=value,
+        max_length=LONGEST_TITLE,
+        size="small",
+        width=width,
+        margin=(6, 12, 6, 0),
+    )
+
+
+def _check_name(event):
+    """Mark a box that holds neither a name nor nothing."""
+    _tell_whether_name(event.obj, event.new.strip(), may_be_empty=True)
+
+
+def _tell_whether_name(box, text, may_be_empty=False):
+    """Return whether a text is a name (bool), and say in its box what to give if it is none."""
+    fine = (may_be_empty and not text) or is_name(text, LONGEST_TITLE)
+    box.param.update(error_state=not fine, helper_text="" if fine else f"give {allowed(LONGEST_TITLE)}")
+    return fine
 
 
 def copy_button():

@@ -103,6 +103,10 @@ def test_a_whole_workshop(open_dashboard):
     expect(page.get_by_role("alert").get_by_text("line 2, column 2")).to_be_visible()
     open_file(page, "Open CSV", "limits.csv", SPECIFICATION.to_csv().encode())
     expect(page.get_by_role("textbox", name="Limit, dB, 63 Hz")).to_have_value("2")
+    # no limit is below zero: what they are has to be said before there is a verdict
+    expect(page.get_by_text("No verdict yet. Answer first")).to_be_visible()
+    expect(page.get_by_role("listitem")).to_have_count(0)
+    page.get_by_role("button", name="Keep as insertion gain").click()
     expect(page.get_by_role("listitem")).to_have_count(3)
     told = {name: str(SPECIFICATION.check(each.insertion_gain)) for name, each in solutions.items()}
     assert verdicts(page) == told

@@ -36,13 +36,13 @@ def installed(tmp_path_factory):
     return copy.parent
 
 
-def run(installed, *arguments, **more):
+def run(installed, *arguments, script=SOLVE, **more):
     """Solve a track in a process of its own that has no home; return what it says."""
     passed = {
         name: os.environ[name] for name in ("PATH", "SYSTEMROOT", "LD_LIBRARY_PATH") if name in os.environ
     }
     done = subprocess.run(
-        [sys.executable, "-c", SOLVE, *map(str, arguments)],
+        [sys.executable, "-c", script, *map(str, arguments)],
         cwd=installed,
         env={**passed, "PYTHONPATH": str(installed), "HOME": os.devnull, **more},
         capture_output=True,
@@ -64,6 +64,13 @@ def test_an_installation_that_cannot_be_written_to_caches_in_a_private_folder(in
 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="permissions of folders are those of POSIX")
+def test_a_first_run_says_that_it_compiles_and_others_do_not(installed, tmp_path):
+    loud = f"import logging; logging.basicConfig(level=20, format='%(message)s')\n{SOLVE}"
+    first, again = (run(installed, script=loud, NUMBA_CACHE_DIR=str(tmp_path)) for _ in range(2))
+    assert "kernels are compiled, as at every first run: about a minute of one processor, once\n" in first
+    assert "compiled" not in again
+
+
 def test_a_folder_that_others_may_write_to_is_not_trusted(installed, tmp_path):
     folder = tmp_path / f"trackig-{os.getuid()}"
     folder.mkdir()

@@ -4,7 +4,9 @@ import contextlib
 import csv
 import dataclasses
 import html
+import io
 import json
+import logging
 import os
 import re
 import socket
@@ -88,6 +90,57 @@ def test_what_was_measured_is_named_with_its_preload(capsys, save):
     }
 
 
+def test_a_track_is_written_as_a_study_that_other_commands_take(capsys, save, tmp_path):
+    out, limits = tmp_path / "own.toml", tmp_path / "limits.csv"
+    limits.write_text(CEILING.to_csv(), encoding="utf-8")
+    words = ["solve", "booted-sleeper", "--set", "boot_stiffness=20kN/mm", "--fidelity", "exact"]
+    words += ["--reference", "rigid", "--bands", "octave", "--wheel-load", "100 kN", "--wheelbase", "2.5 m"]
+    assert main([*words, "--specification", str(limits), "--study", str(out)]) == 0
+    assert "fidelity exact" in capsys.readouterr().out
+    softer = tig.PRESETS["booted-sleeper"].replace(boot_stiffness=20e6)
+    assert tig.Study.from_toml(out.read_bytes()) == tig.Study(
+        softer,
+        preset="booted-sleeper",
+        view=tig.View(reference="rigid", bands="octave"),
+        load=tig.study.StaticLoad(100e3, 2.5),
+        specification=dataclasses.replace(CEILING, name="Specification"),
+    )
+    assert main(["check", str(out), "--fidelity", "exact"]) == 0
+    assert "complies" in capsys.readouterr().out
+    assert main([*words, "--study", str(out)]) == 2
+    assert "give --force" in capsys.readouterr().err
+    # what a study holds besides is kept
+    pinned = [tig.PinnedDesign("Soft", softer)]
+    assert main(["solve", save(pinned=pinned, name="Mine"), "--fidelity", "exact", "--study", "-"]) == 0
+    written = tig.Study.from_toml(capsys.readouterr().out)
+    assert (written.name, written.pinned) == ("Mine", tuple(pinned))
+
+
+@pytest.mark.parametrize(("at_screen", "told"), [(True, "trackig: kernels are compiled\n"), (False, "")])
+def test_who_waits_at_a_screen_is_told_that_a_first_run_compiles(monkeypatch, at_screen, told):
+    log = logging.getLogger("trackig_core.compiling")
+    for name in ("handlers", "level", "propagate"):
+        monkeypatch.setattr(log, name, getattr(log, name))
+    screen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
+    screen.isatty = lambda: at_screen
+    monkeypatch.setattr(sys, "stderr", screen)
+    assert main(["solve", "slab-track", "--fidelity", "exact"]) == 0
+    log.info("kernels are compiled")
+    said = screen.buffer.getvalue().decode().replace("\r\n", "\n")
+    assert said.endswith(told)
+    assert bool(said) == bool(told)
+
+
+def test_a_preset_is_checked_and_reported(capsys, tmp_path):
+    limits, out = tmp_path / "limits.csv", tmp_path / "report.html"
+    limits.write_text(CEILING.to_csv(), encoding="utf-8")
+    given = ["--specification", str(limits), "--fidelity", "exact", "--limits", "insertion-gain"]
+    assert main(["check", "slab-track", *given]) == 0
+    assert "complies, least margin" in capsys.readouterr().out
+    assert main(["report", "slab-track", str(out), *given]) == 0
+    assert "[500.0, 40.0],\n]" in out.read_text(encoding="utf-8")
+
+
 TABLES = ROOT / "tests" / "data" / "measured_stiffness"
 
 
@@ -141,6 +194,21 @@ def test_a_table_that_cannot_be_measured_of_a_track_is_told_in_one_line(capsys, 
     error = capsys.readouterr().err
     assert told in error
     assert error.count("\n") == 1
+
+
+def test_a_report_says_whose_it_is_if_that_is_given(save, tmp_path, capsys):
+    out = tmp_path / "report.html"
+    words = ["report", save(), str(out), "--fidelity", "exact", "--project", "Line 7"]
+    assert main([*words, "--client", "<b>Metro & Co</b>", "--author", "A. Nother"]) == 0
+    text = out.read_text(encoding="utf-8")
+    for name, value in (
+        ("Project", "Line 7"),
+        ("Client", html.escape("<b>Metro & Co</b>")),
+        ("Author", "A. Nother"),
+    ):
+        assert f"<dt>{name}</dt><dd>{value}</dd>" in text
+    assert main([*words, "--force", "--client", "x" * 61]) == 2
+    assert "trackig: --client = 'xxx" in capsys.readouterr().err
 
 
 def test_a_report_holds_the_ladder_if_that_is_asked_for(save, tmp_path, capsys):
@@ -365,7 +433,10 @@ def test_a_report_is_written(save, tmp_path, capsys):
         (["solve", "{tmp}"], "{tmp}: "),
         (["solve", "{tmp}/bad.toml"], "{tmp}/bad.toml: this is not TOML"),
         (["solve", "{tmp}/large.toml"], "{tmp}/large.toml: the file is larger than 256 kB"),
-        (["check", "{tmp}/none.toml"], "{tmp}/none.toml: No such file"),
+        (["check", "{tmp}/none.toml"], "{tmp}/none.toml: no preset and no file"),
+        (["check", "slab-track"], "give --specification FILE.csv"),
+        (["solve", "slab-track", "--limits", "insertion-loss"], "give --study too"),
+        (["solve", "slab-track", "--csv", "-", "--study", "-"], "standard output takes one of them"),
         (["check", "{tmp}/bare.toml"], "has no specification"),
         (["report", "{tmp}/bare.toml", "{tmp}/no/such/folder.html", "--fidelity", "exact"], "No such file"),
         (["solve", "slab-track", "--fidelity", "exact", "--set", "pad_loss_factor=0"], "loss"),

@@ -2,6 +2,7 @@
 
 import contextlib
 import csv
+import io
 import json
 import os
 import re
@@ -16,6 +17,7 @@ import pandas as pd
 import pytest
 
 import trackig_core as tig
+from dashboard import cli_decide
 from dashboard.cli import main
 from tests.core.decide.test_search import CATALOGUE
 from tests.waiting import WAIT
@@ -45,6 +47,11 @@ def table(path):
     return list(csv.DictReader(line for line in lines if not line.startswith("# ")))
 
 
+def printed(text):
+    """Return the cells of a printed table, which two spaces or more part, and none within."""
+    return [line.split() for line in text.split("\n\n")[0].splitlines()]
+
+
 def test_range_prints_and_writes_what_the_core_finds(save, tmp_path, capsys):
     out, answer = tmp_path / "out.csv", tmp_path / "out.json"
     words = ["range", save(), "--field", "boot_stiffness", "--field", "block_mass"]
@@ -58,7 +65,15 @@ def test_range_prints_and_writes_what_the_core_finds(save, tmp_path, capsys):
         assert remark in out.read_text(encoding="utf-8").splitlines()
     said = capsys.readouterr().out
     assert said.endswith(f"\n{expected}\n")
-    assert f"{expected['boot_stiffness'][0][1]:.5g}" in said
+    low, high = expected["boot_stiffness"][0]
+    assert printed(said)[1] == [
+        "boot_stiffness",
+        f"{low / 1e6:.4g}",
+        f"{high / 1e6:.4g}",
+        "2",
+        "200",
+        "kN/mm",
+    ]
     found = json.loads(answer.read_text(encoding="utf-8"))
     assert found["sentence"] == str(expected)
     assert found["rows"][0]["low"] == pytest.approx(expected["boot_stiffness"][0][0], rel=1e-12)
@@ -111,14 +126,14 @@ def test_tolerance_takes_specimens(save, tmp_path, capsys):
     )
     said = capsys.readouterr()
     assert said.out.endswith(f"\n{expected}\n")
-    assert "100 %" in said.err
-    assert "%\n" not in said.out.replace(str(expected), "")
+    assert said.err == "", "how far a short run is, nobody wants in a file"
     assert [row["margin"] for row in table(out)] == [f"{margin:.6g}" for margin in expected.margins]
 
 
 def test_map_writes_every_point(save, tmp_path, capsys):
     out = tmp_path / "map.csv"
-    words = ["map", save(), "boot_stiffness", "block_mass", "--points", "7x5", "--range", "block_mass=20..90"]
+    words = ["map", save(), "boot_stiffness", "block_mass", "--points", "7x5"]
+    words += ["--range", "block_mass=0.02 t to 90 kg"]
     assert main([*words, "--csv", str(out)]) in (0, 1)
     rows = table(out)
     assert len(rows) == 35
@@ -128,7 +143,14 @@ def test_map_writes_every_point(save, tmp_path, capsys):
     margin = CEILING.check(tig.solve(point, "exact").insertion_gain).worst_margin
     assert float(rows[17]["margin"]) == pytest.approx(margin, abs=0.01)
     assert {float(row["block_mass"]) for row in rows} == {20.0, 37.5, 55.0, 72.5, 90.0}
-    assert "of the map complies" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "of the map complies" in said
+    assert said.splitlines()[0].split(", ") == [
+        *("over the map margin", "dB deflection", "mm loaded_track", "Hz coupled_block", "Hz")
+    ]
+    margins, deflections = ([float(row[name]) for row in rows] for name in ("margin", "deflection"))
+    for line, of in zip(said.splitlines()[1:4], (min, np.median, max), strict=True):
+        assert line.split()[1:3] == [f"{of(margins):.2f}", f"{1e3 * of(deflections):.3f}"]
 
 
 SPRUNG = BLOCK.replace(suspension=tig.VEHICLES["metro"].suspension, ground=tig.GROUNDS["soft clay"])
@@ -190,9 +212,9 @@ def test_find_takes_catalogues_and_rails(save, tmp_path, capsys):
     told = capsys.readouterr()
     assert "designs comply, and no other beats" in told.out
     assert "No other beats a design: none that was tried is as good in margin and cost" in told.out
-    assert "deflection_mm" in told.out, "what each costs in deflection, though it was not sought"
+    assert "deflection, mm" in told.out, "what each costs in deflection, though it was not sought"
     assert "No limit of rail deflection is set" in told.out
-    assert "give --max-deflection, in m" in told.err
+    assert "give --max-deflection, or limit it" in told.err
     limited = [*words, "--population", "4", "--generations", "1", "--max-deflection", "0.02"]
     assert main(limited) in (0, 1)
     told = capsys.readouterr()
@@ -253,7 +275,7 @@ def test_no_design_of_a_map_complies(save):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["range"], "range needs a specification to hold designs against: give one"),
+        (["range"], "no specification to hold designs against; give --specification FILE.csv"),
         (["map", "boot_stiffness", "boot_stiffness"], "both fields are boot_stiffness: give two"),
         (["sensitivity", "--tolerance", "rail=10%"], "'rail' is not a single number of this design"),
         (["map", "boot_stiffness", "block_mass", "--figure", "level"], "level: there is no source spectrum"),
@@ -273,6 +295,9 @@ def test_input_at_fault_is_told_in_one_line(save, capsys, words, message):
     [
         ("boot_stiffness\n20e6,1\n", "row 2: 2 values, and 1 fields in the header"),
         ("boot_stiffness\nsoft\n", "row 2, boot_stiffness: 'soft' is no number"),
+        ("boot_stiffness [kg]\n20\n", "'boot_stiffness [kg]' names no unit of boot_stiffness, such as N/m"),
+        ("pad_loss_factor [m]\n0.2\n", "names no unit of pad_loss_factor: it has none"),
+        ("boot_stiffness [kN/mm]\n20 kg\n", "row 2, boot_stiffness: '20 kg': kg is a unit of mass"),
         ("boot_stiffness\n", "give a header of fields and one row or more"),
     ],
 )
@@ -288,7 +313,27 @@ def test_a_table_at_fault_names_its_row(save, tmp_path, capsys, text, message):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["range", "x.toml", "--range", "block_mass=5"], "write FIELD=LOW..HIGH"),
+        (["range", "x.toml", "--range", "block_mass"], "write FIELD=LOW..HIGH"),
+        (
+            ["range", "x.toml", "--range", "block_mass=5"],
+            "write block_mass=LOW..HIGH, with a unit or in SI; block_mass is a number from 1 to 10000 kg",
+        ),
+        (["range", "x.toml", "--range", "colour=1..2"], "fields are pad_stiffness"),
+        (
+            ["map", "x.toml", "a", "b", "--range", "boot_stiffness=5..40 kg"],
+            "kg is a unit of mass; give N/m, N/mm, kN/mm or MN/m; boot_stiffness is a number from 100000 to "
+            "1e+13 N/m",
+        ),
+        (["range", "x.toml", "--max-deflection", "2 kN"], "rail_deflection_limit is a number from 1e-06"),
+        (
+            ["find", "x.toml", "--cost", "block_mass=2/mm"],
+            "'mm' is no unit of block_mass; give a cost per kg",
+        ),
+        (
+            ["tolerance", "x.toml", "--tolerance", "block_mass=2kg"],
+            "a tolerance is a share, such as 10% or 0.1",
+        ),
+        (["sensitivity", "x.toml", "--change", "a lot"], "'a lot' is no number"),
         (["find", "x.toml", "--free", "colour"], "fields are pad_stiffness"),
         (["tolerance", "x.toml", "--tolerance", "boot_stiffness"], "write FIELD=SHARE"),
         (["map", "x.toml", "a", "b", "--points", "5"], "write NXxNY"),
@@ -299,6 +344,95 @@ def test_words_that_are_none_are_refused_at_once(capsys, words, message):
         main(words)
     assert ended.value.code == 2
     assert message in capsys.readouterr().err
+
+
+def test_numbers_have_units_wherever_they_are_taken(save, tmp_path):
+    found, boots = tmp_path / "found.csv", tmp_path / "boot.csv"
+    boots.write_text("Boot stiffness [kN/mm],cost (EUR)\n20,30\n28,20\n", encoding="utf-8")
+    words = ["find", save(), "--free", "block_mass=20 kg:0.1 t", "--choose", str(boots)]
+    words += ["--objective", "cost", "--cost", "pad_stiffness=2 per kN/mm", "--max-deflection", "1.5 mm"]
+    assert main([*words, "--population", "8", "--generations", "2", "--csv", str(found)]) in (0, 1)
+    rows = table(found)
+    assert {row["boot_stiffness"] for row in rows} == {"2e+07", "2.8e+07"}
+    assert all(20 <= float(row["block_mass"]) <= 100 for row in rows)
+    price = {"2e+07": 30, "2.8e+07": 20}
+    for row in rows:
+        expected = price[row["boot_stiffness"]] + 2 * BLOCK.pad_stiffness / 1e6
+        assert float(row["cost"]) == pytest.approx(expected, rel=1e-5)
+    remarks = found.read_text(encoding="utf-8")
+    assert '"free": {"block_mass": [20.0, 100.0]}' in remarks
+    assert '"max_deflection": 0.0015' in remarks
+
+
+def test_a_preset_and_a_specification_stand_for_a_study(save, tmp_path, capsys):
+    limits = tmp_path / "limits.csv"
+    limits.write_text(CEILING.to_csv(), encoding="utf-8")
+    asked = ["--field", "boot_stiffness"]
+    assert main(["range", "booted-block-low-mass", "--specification", str(limits), *asked]) == 0
+    of_preset = capsys.readouterr().out
+    assert main(["range", save(), *asked]) == 0
+    assert of_preset == capsys.readouterr().out
+    assert main(["range", save(specification=HOPELESS), "--specification", str(limits), *asked]) == 0
+    assert of_preset == capsys.readouterr().out
+    assert main(["map", "booted-sleeper", "boot_stiffness", "pad_stiffness", "--points", "3x3"]) == 0
+    assert "The greatest rail deflection is" in capsys.readouterr().out
+    assert main(["find", "booted-blok", "--free", "block_mass"]) == 2
+    assert "did you mean booted-block-" in capsys.readouterr().err
+    assert main(["find", "booted-sleeper", "--free", "block_mass"]) == 2
+    assert "give --specification FILE.csv" in capsys.readouterr().err
+
+
+def test_tables_name_their_units(save, capsys):
+    study = save()
+    assert main(["sensitivity", study, "--change", "5%"]) == 0
+    title, heads, first, *_ = capsys.readouterr().out.splitlines()
+    assert title == "Change of each figure when one field changes:"
+    figures = "margin, dB deflection, mm loaded_track, Hz coupled_block, Hz"
+    assert heads.split() == f"field changed by, % {figures}".split()
+    expected = tig.decide.sensitivity(BLOCK, CEILING, changes=0.05).differences
+    down = {name: values[0, 0] for name, values in expected.items()}
+    assert first.split() == [
+        *("pad_stiffness", "-5", f"{down['margin']:.2f}", f"{1e3 * down['deflection']:.3f}"),
+        *(f"{down['loaded_track']:.1f}", f"{down['coupled_block']:.1f}"),
+    ]
+    assert main(["tolerance", study, "--tolerance", "boot_stiffness=10%", "--samples", "200"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert said[1].split(", ") == ["band", "Hz 5 %", "dB 50 %", "dB 95 %", "dB"]
+    levels = tig.decide.tolerance(BLOCK, CEILING, {"boot_stiffness": 0.1}, samples=200).percentiles
+    assert said[2].split() == ["5", *(f"{level:.2f}" for level in levels[:, 0])]
+    words = ["--tolerance", "boot_stiffness=10%", "--tolerance", "block_mass=2%", "--samples", "128"]
+    assert main(["sensitivity", study, *words]) == 0
+    said = capsys.readouterr().out.splitlines()
+    indices = tig.decide.sobol(BLOCK, {"boot_stiffness": 0.1, "block_mass": 0.02}, CEILING, samples=128)
+    assert "alone, %" in said[1]
+    assert f" {100 * indices.first_order[0, 0]:.0f} (" in said[2]
+
+
+SEARCH = ["--free", "boot_stiffness=20..40 kN/mm", "--free", "block_mass", "--population", "20"]
+
+
+def test_a_few_of_the_best_designs_are_printed_unless_all_are_asked_for(save, capsys):
+    words = ["find", save(), *SEARCH, "--generations", "12"]
+    assert main(words) == 0
+    free = {"boot_stiffness": (20e6, 40e6), "block_mass": (10, 500)}
+    best = tig.decide.find(BLOCK, CEILING, free, population=20, generations=12)
+    count = best.front.size
+    assert count > 10
+    heads, *rows, remark = capsys.readouterr().out.split("\n\n")[0].splitlines()
+    assert re.findall(r"\S+, \S+", heads) == [
+        *("block_mass, kg", "boot_stiffness, kN/mm", "margin, dB", "deflection, mm", "slack, dB")
+    ]
+    assert len(rows) == 10
+    assert remark.startswith(
+        f"10 of the {count} best designs, spread evenly over them, greatest margin first"
+    )
+    ends = [best.best()[0], best.best()[-1]]
+    assert [row.split()[:2] for row in (rows[0], rows[-1])] == [
+        [f"{each.block_mass:.4g}", f"{each.boot_stiffness / 1e6:.4g}"] for each in ends
+    ]
+    assert main([*words, "--all"]) == 0
+    rows = printed(capsys.readouterr().out)[1:]
+    assert [row[1] for row in rows] == [f"{each.boot_stiffness / 1e6:.4g}" for each in best.best()]
 
 
 def test_it_does_not_write_over_files(save, tmp_path, capsys):
@@ -362,19 +496,43 @@ def test_a_report_has_the_pictures_of_kept_answers_that_come_out_again(save, tmp
 def test_control_c_leaves_the_best_so_far(save, tmp_path):
     out = tmp_path / "cloud.csv"
     words = ["find", save(), "--free", "boot_stiffness", "--free", "block_mass", "--generations", "100000"]
+    screen, stderr = os.openpty()
     process = subprocess.Popen(
         [sys.executable, "-m", "dashboard", *words, "--csv", str(out)],
         cwd=ROOT,
         stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        stderr=stderr,
         text=True,
     )
-    assert "no limit of rail deflection is set" in process.stderr.readline()
+    os.close(stderr)
     # 0 % is told after the first generation
-    assert process.stderr.readline() == "0 %\n"
+    said = b""
+    while not said.endswith(b"\r0 %"):  # a first run says before that it compiles
+        said += os.read(screen, 1)
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
     said, _ = process.communicate(timeout=WAIT)
+    os.close(screen)
     assert process.returncode == 130
     assert "designs comply, and no other beats" in said
     assert len(table(out)) >= 100
+
+
+class Screen(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_how_far_it_is_stands_in_one_line_on_a_screen_and_seldom_in_a_file(monkeypatch):
+    now = 0.0
+    monkeypatch.setattr(cli_decide.time, "monotonic", lambda: now)
+    said = {}
+    for stream in (Screen(), io.StringIO()):
+        now = 0.0
+        monkeypatch.setattr(sys, "stderr", stream)
+        with cli_decide.watched(None) as how:
+            for done in (0.0, 0.05, 0.1, 0.2, 0.25, 0.35, 1.0):
+                how["progress"](done)
+                now += 4
+        said[type(stream)] = stream.getvalue()
+    assert said == {Screen: "\r0 %\r10 %\r20 %\r30 %\r100 %\n", io.StringIO: "20 %\n100 %\n"}

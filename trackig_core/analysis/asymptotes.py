@@ -35,6 +35,7 @@ from trackig_core.frequency_domain.track_model import Track, TrackModel, track_m
 from trackig_core.levels.insertion_gain import REFERENCES, SUMMATIONS, check_choice, summed_energy
 from trackig_core.results import ForceSpectrum
 from trackig_core.track.design import DEFAULT_STEP
+from trackig_core.words import hertz
 
 PER_RESONANCE = -40 * math.log10(2)
 """What each natural frequency adds to the slope above it [dB per octave]."""
@@ -61,6 +62,14 @@ class Asymptote:
     level: tuple[float, float]
     slope: float
 
+    def __str__(self) -> str:
+        """Return slope and ends, with their units."""
+        low, high = (
+            f"{level:.1f} dB at {hertz([each])}"
+            for each, level in zip(self.frequency, self.level, strict=True)
+        )
+        return f"{self.slope:+.1f} dB per octave, from {low} to {high}"
+
 
 @dataclass(frozen=True)
 class MeasuredSlope:
@@ -80,6 +89,13 @@ class MeasuredSlope:
     frequency: float
     lumped: float
     beam: float
+
+    def __str__(self) -> str:
+        """Return the slopes [dB per octave], and where they are measured."""
+        return (
+            f"at {hertz([self.frequency])}: asymptote {self.asymptote.slope:+.1f}, "
+            f"lumped model {self.lumped:+.1f}, beam model {self.beam:+.1f} dB per octave"
+        )
 
 
 def gain_asymptotes(

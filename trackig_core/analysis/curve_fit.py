@@ -55,6 +55,12 @@ class CurveFit:
         """
         return self.law.worst_error
 
+    def __str__(self) -> str:
+        """Return how far the law is from what was measured, in per cent."""
+        at_points = self.error_at_points
+        said = "no point" if at_points is None else f"{100 * at_points:.2g} % at the points"
+        return f"fitted law, 5 to 500 Hz: largest error {said}, {100 * self.error_between:.2g} % between them"
+
 
 _NEAR = 1e-9
 

@@ -17,6 +17,7 @@ from trackig_core.frequency_domain.refinement import banded_gain
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
 from trackig_core.track.viscoelastic_law import Relaxation
+from trackig_core.words import span
 
 LOSS_FACTORS = (0.05, 0.2, 0.5)
 """Loss factors that are compared unless others are asked for [-]: a resilient, a common, a lossy material."""
@@ -39,6 +40,13 @@ class DampingCurve:
     frequency: RealArray = field(repr=False)
     stiffness: RealArray = field(repr=False)
     loss_factor: RealArray = field(repr=False)
+
+    def __str__(self) -> str:
+        """Return the range of loss factor and stiffness over frequency."""
+        return (
+            f"{span(self.frequency, 'Hz')}: loss factor {span(self.loss_factor, '')}, stiffness "
+            f"{span(self.stiffness, '')} of that at {REFERENCE_FREQUENCY:g} Hz"
+        )
 
 
 def damping_curves(design: Track, frequency: ArrayLike) -> tuple[DampingCurve, DampingCurve | None]:

@@ -22,7 +22,8 @@ from trackig_core.analysis.lumped import effective_supports, lumped_frequencies
 from trackig_core.arrays import RealArray
 from trackig_core.frequency_domain import natural_frequencies as modes
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
-from trackig_core.track.fields import DESIGN_FIELDS, DesignError
+from trackig_core.track.fields import DESIGN_FIELDS, RANGES, DesignError
+from trackig_core.words import span
 
 _STATED = ("pad_static_stiffness", "boot_static_stiffness", "stiffness_frequency")
 """Numbers that say how a stiffness was measured, and are none of the track's own."""
@@ -63,6 +64,14 @@ class FrequencySweep:
     lumped_coupled: RealArray = dataclasses.field(repr=False)
     lumped_uncoupled: RealArray = dataclasses.field(repr=False)
 
+    def __str__(self) -> str:
+        """Return the natural frequencies over the values of the field, with their units."""
+        block = (
+            "" if np.isnan(self.coupled_block).all() else f", coupled block {span(self.coupled_block, 'Hz')}"
+        )
+        over = f"{self.field} {span(self.values, RANGES[self.field][2])}"
+        return f"over {over}: loaded track {span(self.loaded_track, 'Hz')}{block}"
+
 
 @dataclass(frozen=True)
 class Departure:
@@ -82,6 +91,12 @@ class Departure:
     loaded_track: float
     coupled_block: float | None
     reasons: tuple[str, ...]
+
+    def __str__(self) -> str:
+        """Return the lumped model's frequencies over the beam's, in per cent, and why."""
+        block = "" if self.coupled_block is None else f", coupled block {100 * self.coupled_block:.0f} %"
+        said = f"the lumped model's loaded track is at {100 * self.loaded_track:.0f} % of the beam's{block}"
+        return " ".join([f"{said}.", *self.reasons])
 
 
 def frequency_sweep(design: Track, field: str, values: ArrayLike) -> FrequencySweep:

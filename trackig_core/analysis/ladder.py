@@ -29,6 +29,7 @@ from trackig_core.track.fields import RANGES
 from trackig_core.track.ground import GROUNDS, Ground
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 from trackig_core.track.vehicle import VEHICLES, Vehicle
+from trackig_core.words import extremes, largest
 
 DEFAULT_VEHICLE = "regional"
 """Vehicle of the catalogue that fills in what a design does not say of suspension and axles."""
@@ -78,6 +79,13 @@ class Rung:
     def _where(self) -> int:
         return int(np.abs(self.difference).argmax())
 
+    def __str__(self) -> str:
+        """Return what it adds, and by how much that moves insertion gain [dB]."""
+        if not self.difference.any():
+            return f"{self.name}: insertion gain {extremes(self.insertion_gain, BAND_LABELS)}"
+        moves = largest(self.difference, BAND_LABELS)
+        return f"{self.name} ({self.source}): {moves} from the simplified model"
+
 
 @dataclass(frozen=True, eq=False)
 class Ladder:
@@ -121,6 +129,10 @@ class Ladder:
             f"{', '.join(steps[:-1])} and {steps[-1]}; the one-dimensional model is up to "
             f"{_worst(self.one_dimensional.difference)} from it."
         )
+
+    def __str__(self) -> str:
+        """Return what the simplified model costs, in one sentence [dB]."""
+        return self.sentence
 
 
 def ladder(

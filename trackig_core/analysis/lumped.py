@@ -33,6 +33,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from trackig_core.arrays import BoolArray, ComplexArray, RealArray
+from trackig_core.bands import BAND_LABELS
 from trackig_core.frequency_domain.natural_frequencies import consistent, coupled_pair
 from trackig_core.frequency_domain.refinement import (
     band_frequencies,
@@ -45,6 +46,7 @@ from trackig_core.frequency_domain.track_model import Track, TrackModel, once_pe
 from trackig_core.levels.insertion_gain import insertion_gain
 from trackig_core.results import ForceSpectrum, InsertionGain
 from trackig_core.track.design import DEFAULT_STEP, REFERENCE_FREQUENCY, TrackDesign
+from trackig_core.words import hertz, largest
 
 GOOD_ENOUGH = 3.0
 """Difference from the beam model up to which a band of the lumped model serves a first estimate [dB]: the
@@ -67,6 +69,10 @@ class LumpedFrequencies:
     coupled: tuple[float, ...]
     uncoupled: tuple[float, ...]
 
+    def __str__(self) -> str:
+        """Return the frequencies [Hz]."""
+        return f"coupled {hertz(self.coupled)}; uncoupled {hertz(self.uncoupled)}"
+
 
 @dataclass(frozen=True, eq=False)
 class LumpedComparison:
@@ -88,6 +94,14 @@ class LumpedComparison:
     def difference(self) -> RealArray:
         """Lumped less beam (21,) [dB]."""
         return self.lumped - self.beam
+
+    def __str__(self) -> str:
+        """Return in how many bands the models agree, and where they do least [dB]."""
+        count = int(self.good_enough.sum())
+        return (
+            f"the lumped model is within {GOOD_ENOUGH:g} dB of the beam model in {count} of "
+            f"{self.beam.size} bands; farthest from it by {largest(self.difference, BAND_LABELS)}"
+        )
 
 
 @once_per_model

@@ -23,6 +23,7 @@ from trackig_core.time_domain.decimation import RECORD_RATE
 from trackig_core.time_domain.grid import FEWEST_BAYS, Grid, fewest_bays, make_grid
 from trackig_core.time_domain.time_stepping import Probes, Run
 from trackig_core.track.design import DEFAULT_STEP
+from trackig_core.words import quantity
 
 DURATION = 0.3
 """Length of the film [s]: some ten periods of an ordinary loaded track."""
@@ -77,6 +78,15 @@ class Motion:
     def wheel(self) -> RealArray:
         """Displacement of the first wheel (frames,) [m]."""
         return self.wheels[:, 0]
+
+    def __str__(self) -> str:
+        """Return length and largest displacements of the film, with their units."""
+        moves = quantity(float(np.abs(self.rail).max()), "m", 3)
+        return (
+            f"{self.time.size} frames from {quantity(float(self.time[0]), 's', 3)} to "
+            f"{quantity(float(self.time[-1]), 's', 3)}, {self.support_position.size} supports: after a step "
+            f"of {quantity(self.step, 'm')} the rail moves by up to {moves}"
+        )
 
 
 def film(

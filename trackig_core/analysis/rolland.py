@@ -14,6 +14,7 @@ from importlib.resources import files
 import numpy as np
 
 from trackig_core.arrays import ComplexArray, RealArray
+from trackig_core.words import span
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +34,12 @@ class PeerReceptance:
     frequency: RealArray = field(repr=False)
     euler: ComplexArray = field(repr=False)
     timoshenko: ComplexArray = field(repr=False)
+
+    def __str__(self) -> str:
+        """Return the range of both receptances, with their units."""
+        euler, timoshenko = (span(np.abs(each), "m/N") for each in (self.euler, self.timoshenko))
+        at = span(self.frequency, "Hz")
+        return f"point receptance, {at}: Euler rail {euler}, Timoshenko rail {timoshenko}"
 
 
 @cache

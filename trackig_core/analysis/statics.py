@@ -32,6 +32,7 @@ from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
 from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, check_number
 from trackig_core.track.static_stiffness import static_stiffnesses, unstated
+from trackig_core.words import quantity
 
 LONGEST_WHEELBASE = 100.0
 """Greatest distance between two wheels [m]."""
@@ -105,6 +106,30 @@ class StaticResponse:
     def at_least(self) -> bool:
         """Whether the rail sinks at least so far: a dynamic stiffness stands in for a static one."""
         return bool(self.unstated)
+
+    def __str__(self) -> str:
+        """Return deflection, loads and compressions with their units."""
+        at_least = "at least " if self.at_least else ""
+        wheels = quantity(self.wheel_load, "N", 3)
+        if self.wheelbase is not None:
+            wheels = f"two wheels of {wheels}, {quantity(self.wheelbase, 'm')} apart"
+        else:
+            wheels = f"one wheel of {wheels}"
+        figures = {
+            "seat load": quantity(self.largest_seat_load, "N", 3),
+            "pad compression": quantity(self.pad_compression, "m", 3),
+            "boot compression": None
+            if self.boot_compression is None
+            else quantity(self.boot_compression, "m", 3),
+            "uplift": quantity(self.largest_uplift, "m", 3),
+            "bending moment": quantity(self.largest_bending_moment, "N m", 3),
+        }
+        words = ", ".join(f"{name} {each}" for name, each in figures.items() if each is not None)
+        stands_in = (
+            f"; no static stiffness is stated of the {' and the '.join(self.unstated)}" if at_least else ""
+        )
+        sinks = quantity(self.rail_deflection, "m", 3)
+        return f"rail deflection {at_least}{sinks} under {wheels}, {words}{stands_in}"
 
 
 def static_response(

@@ -27,6 +27,7 @@ from trackig_core.frequency_domain.lattice import Lattice
 from trackig_core.frequency_domain.point_force import RailWaves, rail_waves
 from trackig_core.frequency_domain.track_model import Track, TrackModel, track_model
 from trackig_core.levels.insertion_gain import check_choice
+from trackig_core.words import span
 
 FINE = Lattice(elements_per_bay=24)
 """The infinite track with elements short enough for 1 kHz."""
@@ -83,6 +84,15 @@ class TrackResponse:
     def midspan_mobility(self) -> ComplexArray:
         """Point mobility half-way between supports (frequencies,) [m/(N s)]."""
         return 2j * np.pi * self.frequency * self.midspan
+
+    def __str__(self) -> str:
+        """Return the range of receptances and decay rates, with their units."""
+        support, midspan = (span(np.abs(each), "m/N") for each in (self.support, self.midspan))
+        rates = (span(each, "dB/m") for each in (self.support_decay_rate, self.midspan_decay_rate))
+        return (
+            f"{span(self.frequency, 'Hz')}: receptance {support} over a support, {midspan} between two; "
+            f"decay rate {' and '.join(rates)}"
+        )
 
 
 def track_response(design: Track, frequency: ArrayLike = AXIS) -> TrackResponse:

@@ -19,6 +19,7 @@ from trackig_core.results import ForceSpectrum
 from trackig_core.solution import Solution
 from trackig_core.time_domain.adaptive_grid import MEMORY_ORDER
 from trackig_core.time_domain.grid import paper_memory_order, stable_time_step
+from trackig_core.words import quantity
 
 FACTORS = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
 """Time steps of the convergence study, in parts of the run's [-]; those that are unstable are left out."""
@@ -63,6 +64,16 @@ class Verification:
     def run_errors(self) -> RealArray:
         """Largest error of insertion gain at each time step by the run's own memory (steps,) [dB]."""
         return self.first_order_errors if self.memory_order == 1 else self.second_order_errors
+
+    def __str__(self) -> str:
+        """Return what time step and elements cost the run, in words [dB]."""
+        own = FACTORS.tolist().index(1.0)
+        step, three = quantity(1e6 * self.time_steps[own], "µs", 3), self.elements_per_bay.tolist().index(3)
+        return (
+            f"time step {step} with damping memory of order {self.memory_order}: insertion gain within "
+            f"{self.run_errors[own]:.2g} dB of continuous time in every band; 3 elements a bay: within "
+            f"{self.element_errors[three]:.2g} dB of a rail without elements"
+        )
 
 
 def verify(solution: Solution) -> Verification:

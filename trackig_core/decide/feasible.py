@@ -20,11 +20,11 @@ from trackig_core.arrays import AnyArray, BoolArray, IntArray, RealArray
 from trackig_core.decide.numbers import single_numbers
 from trackig_core.decide.requirements import DEFLECTION, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import amount, spoken
+from trackig_core.decide.words import spoken
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
-from trackig_core.track.fields import GIVEN, RANGES, SEARCHED_RANGES, SLIDER_RANGES
+from trackig_core.track.fields import GIVEN, RANGES, SEARCHED_RANGES, SLIDER_RANGES, amount
 from trackig_core.track.rails import RAILS
 
 if TYPE_CHECKING:

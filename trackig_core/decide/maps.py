@@ -16,10 +16,11 @@ from trackig_core.decide.feasible import Ranges, searched_ranges
 from trackig_core.decide.numbers import is_logarithmic
 from trackig_core.decide.requirements import WORDS, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import amount, how_much, in_unit, sentence, spoken
+from trackig_core.decide.words import how_much, in_unit, sentence, spoken
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
 from trackig_core.track.design import TrackDesign
+from trackig_core.track.fields import amount
 
 if TYPE_CHECKING:
     import pandas

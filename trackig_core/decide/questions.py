@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, is_dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, Unpack
 
@@ -168,6 +168,10 @@ class Question:
             arguments |= how
         return getattr(import_module("trackig_core.decide"), kind.function)(self.design, **arguments)
 
+    def __str__(self) -> str:
+        """Return what is asked, of which design."""
+        return f"{self.kind} of {self.design}"
+
 
 @dataclass(frozen=True)
 class Answer:
@@ -224,6 +228,10 @@ class Answer:
         """Return whether the same figures come out, to the last bit, when it is asked again."""
         return digest(self.question.ask(**how)) == self.digest
 
+    def __str__(self) -> str:
+        """Return the answer in one sentence."""
+        return self.sentence
+
 
 def digest(result: Result) -> str:
     """Return the SHA-256 of every figure of a result (str)."""
@@ -234,8 +242,13 @@ def digest(result: Result) -> str:
         if values.dtype.kind in "fib":
             found.update(np.ascontiguousarray(values).tobytes())
         else:
-            found.update("\0".join(map(str, values)).encode())
+            found.update("\0".join(map(_in_full, values)).encode())
     return found.hexdigest()
+
+
+def _in_full(cell: object) -> str:
+    """Return a cell as text in which every figure shows, also those of a curve or a rail."""
+    return repr(cell) if is_dataclass(cell) else str(cell)
 
 
 def arguments(settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -78,6 +78,10 @@ class Uniform:
         """Least and greatest value [-]."""
         return 1 - self.share, 1 + self.share
 
+    def __str__(self) -> str:
+        """Return the tolerance in per cent."""
+        return f"anything within ±{100 * self.share:.3g} %"
+
 
 @dataclass(frozen=True)
 class Normal:
@@ -110,6 +114,10 @@ class Normal:
     def corners(self) -> tuple[float, float]:
         """Values two standard deviations away from one [-]."""
         return 1 - CORNER * self.deviation, 1 + CORNER * self.deviation
+
+    def __str__(self) -> str:
+        """Return the deviation in per cent."""
+        return f"normal, with a standard deviation of {100 * self.deviation:.3g} %"
 
 
 def _check_share(what: str, share: object, most: float) -> None:

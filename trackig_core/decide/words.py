@@ -3,35 +3,7 @@
 import math
 
 from trackig_core.decide.requirements import DEFLECTION, UNITS
-from trackig_core.track.fields import GIVEN, RANGES
-
-_PREFIXED = ("N/m", "N s/m")
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
-
-
-def amount(field: str, value: float, figures: int = 4) -> str:
-    """Return a value of a field with its unit, such as ``"10.85 MN/m"``.
-
-    Parameters
-    ----------
-    field : str
-        Name of the field.
-    value : float
-        Value [unit of the field].
-    figures : int
-        Figures that are shown [-].
-
-    Returns
-    -------
-    str
-        The value in words.
-    """
-    unit = RANGES[field][2]
-    if unit in _PREFIXED:
-        for size, prefix in _PREFIXES:
-            if abs(value) >= size:
-                return f"{value / size:.{figures}g} {prefix}{unit}"
-    return f"{value:.{figures}g} {unit}".rstrip()
+from trackig_core.track.fields import GIVEN, RANGES, amount
 
 
 def spoken(field: str) -> str:

@@ -113,6 +113,12 @@ class Lattice:
         one = np.exp(-2j * np.pi * frequency * self.time_step)
         return one**whole * (1 - part + part * one)
 
+    def __str__(self) -> str:
+        """Return elements, ring and time step, in words."""
+        ring = "infinite" if self.bays is None else f"a ring of {self.bays} bays"
+        time = "continuous time" if self.time_step is None else f"time step {1e6 * self.time_step:.3g} µs"
+        return f"{self.elements_per_bay} elements a bay, {ring}, {time}, {self.rail} rail"
+
 
 INFINITE = Lattice()
 """The infinite track in continuous time, three elements a bay."""

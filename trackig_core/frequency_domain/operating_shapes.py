@@ -31,6 +31,7 @@ from trackig_core.frequency_domain.floquet_waves import Waves, contact_force, wa
 from trackig_core.frequency_domain.lattice import INFINITE, Lattice
 from trackig_core.frequency_domain.track_model import Track, track_model
 from trackig_core.track.design import ONE_AXLE
+from trackig_core.words import counted, span
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +71,15 @@ class SteadyShape:
     def wheel(self) -> ComplexArray:
         """Displacement of the first wheel (frequencies,) [-]."""
         return self.wheels[0]
+
+    def __str__(self) -> str:
+        """Return frequencies, and how far rail and wheel move per unit roughness."""
+        rail, wheel = (float(np.abs(each).max()) for each in (self.rail, self.wheels))
+        return (
+            f"{counted(self.frequency.size, 'shape')}, {span(self.frequency, 'Hz')}, of "
+            f"{self.support_position.size} supports: per m of roughness the rail moves by up to {rail:.3g} "
+            f"m, the wheel by {wheel:.3g} m"
+        )
 
 
 def steady_shape(

@@ -263,6 +263,11 @@ class BandTable:
             levels[NOMINAL.index(frequency)] = level
         return levels
 
+    def __str__(self) -> str:
+        """Return name, frequencies [Hz] and levels [dB]."""
+        levels = ", ".join(f"{level:g} dB at {frequency:g} Hz" for frequency, level in self.points)
+        return f"{self.name}: {levels or 'no band'}"
+
 
 def _written(quantity: Quantity, points: Iterable[tuple[float, float | str]]) -> str:
     lines = [f"{FREQUENCY_COLUMN},{quantity.column}"]

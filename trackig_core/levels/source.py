@@ -60,6 +60,10 @@ class LevelDifference(NamedTuple):
     unweighted: float
     a_weighted: float
 
+    def __str__(self) -> str:
+        """Return both differences with their units."""
+        return f"{self.unweighted:+.1f} dB, {self.a_weighted:+.1f} dB(A)"
+
 
 @dataclass(frozen=True, eq=False)
 class TrackLevel:
@@ -82,6 +86,10 @@ class TrackLevel:
     def relative_to(self, base: "TrackLevel") -> LevelDifference:
         """Return by how much this level exceeds another of the same source (LevelDifference)."""
         return LevelDifference(self.unweighted - base.unweighted, self.a_weighted - base.a_weighted)
+
+    def __str__(self) -> str:
+        """Return both levels with their units."""
+        return f"{self.unweighted:.1f} dB, {self.a_weighted:.1f} dB(A)"
 
 
 @dataclass(frozen=True)

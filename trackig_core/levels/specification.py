@@ -28,6 +28,7 @@ from trackig_core.levels.band_tables import (
 )
 from trackig_core.names import brief, is_name
 from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, DesignError, check_number
+from trackig_core.words import quantity
 
 LEVEL_TOLERANCE = 1e-6
 """Margin below which a level is taken to lie on its limit [dB]: floating-point arithmetic leaves as much."""
@@ -217,6 +218,14 @@ class Specification(BandTable):
             )
         margin = self.rail_deflection_limit - float(rail_deflection)
         return 0.0 if abs(margin) < DEFLECTION_TOLERANCE else margin
+
+    def __str__(self) -> str:
+        """Return name, frequencies [Hz] and limits [dB], and that of the deflection."""
+        limit = self.rail_deflection_limit
+        if limit is None:
+            return super().__str__()
+        load = quantity(self.wheel_load, "N")
+        return f"{super().__str__()}; rail deflection at most {quantity(limit, 'm')} under {load}"
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,10 +28,11 @@ from trackig_core.study.toml_format import (
     _Section,
 )
 from trackig_core.track.design import REFERENCE_FREQUENCY, TrackDesign
-from trackig_core.track.fields import DesignError, check_number
+from trackig_core.track.fields import DesignError, check_number, values_in_words
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 from trackig_core.track.rails import RAILS, STEEL_MODULUS, Rail
 from trackig_core.track.viscoelastic_law import relaxation
+from trackig_core.words import counted
 
 FORMAT = "trackig catalogue"
 """What every file says it is."""
@@ -144,6 +145,10 @@ class Component:
         fitted = self.fitted_to(design)
         given = {name: getattr(fitted, name) for name, value in self.values.items() if value is not None}
         return {"component": self.name, **{name: _plain(value) for name, value in given.items()}}
+
+    def __str__(self) -> str:
+        """Return kind, name, values with their units, and source."""
+        return f"{self.kind} {self.name}: {', '.join(values_in_words(self.values))} ({self.source})"
 
 
 def _plain(value: Any) -> Any:
@@ -258,6 +263,11 @@ class Catalogue:
             if len(tables):
                 document.add(kind, tables)
         return tomlkit.dumps(document)
+
+    def __str__(self) -> str:
+        """Return name, and how many components of each kind there are."""
+        kinds = (counted(len(self.of_kind(kind)), kind) for kind in KINDS if self.of_kind(kind))
+        return f"{self.name}: {', '.join(kinds) or 'no component'}"
 
 
 @cache

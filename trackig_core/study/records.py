@@ -9,6 +9,7 @@ from trackig_core.names import allowed, brief, is_name
 from trackig_core.track.catalogue import PRESETS
 from trackig_core.track.design import TrackDesign
 from trackig_core.track.fields import DEFAULT_WHEEL_LOAD, DesignError, check_number
+from trackig_core.words import quantity
 
 
 class StudyError(ValueError):
@@ -67,6 +68,10 @@ class View:
         if self.base is not None:
             check_count(self.base, "view.base")
 
+    def __str__(self) -> str:
+        """Return the definition and the bands, in words."""
+        return f"reference {self.reference}, summation {self.summation}, {self.bands} bands"
+
 
 @dataclass(frozen=True)
 class StaticLoad:
@@ -102,6 +107,13 @@ class StaticLoad:
     def response(self, design: TrackDesign) -> StaticResponse:
         """Return how a design carries the wheels (StaticResponse)."""
         return static_response(design, self.wheel_load, self.wheelbase)
+
+    def __str__(self) -> str:
+        """Return the wheels with their units."""
+        load = quantity(self.wheel_load, "N")
+        if self.wheelbase is None:
+            return f"one wheel of {load}"
+        return f"two wheels of {load}, {quantity(self.wheelbase, 'm')} apart"
 
 
 @dataclass(frozen=True)
@@ -149,6 +161,10 @@ class PinnedDesign:
         if not isinstance(self.shown, bool):
             raise StudyError(f"{brief(self.shown)}: give true or false", "shown")
         check_preset(self.preset)
+
+    def __str__(self) -> str:
+        """Return name and design."""
+        return f"{self.name}: {self.design}"
 
 
 def check_kind(value: object, kind: type, path: str) -> None:

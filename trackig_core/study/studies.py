@@ -10,6 +10,7 @@ from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 from trackig_core.study import toml_format
 from trackig_core.study.records import PinnedDesign, StaticLoad, StudyError, View, check_kind, check_preset
 from trackig_core.track.design import TrackDesign
+from trackig_core.words import counted
 
 MOST_BYTES = toml_format.MOST_BYTES
 """Size that a file may have [bytes]."""
@@ -129,3 +130,9 @@ class Study:
                 "thin out the measured tables, or pin fewer designs that have one"
             )
         return text
+
+    def __str__(self) -> str:
+        """Return name and design, and what else there is."""
+        there = [counted(len(self.pinned), "pinned design"), counted(len(self.answers), "answer")]
+        named = [each.name for each in (self.specification, self.source) if each is not None]
+        return f"{self.name}: {self.design}; {', '.join([*there, *named])}"

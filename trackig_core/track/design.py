@@ -18,7 +18,7 @@ from typing import Any
 
 from trackig_core.track.fields import RANGES as RANGES
 from trackig_core.track.fields import DesignError as DesignError
-from trackig_core.track.fields import check_number
+from trackig_core.track.fields import check_number, values_in_words
 from trackig_core.track.ground import Ground as Ground
 from trackig_core.track.measured_curves import LossFactorCurve, StiffnessCurve
 from trackig_core.track.rails import PAPER_RAIL, RAILS
@@ -362,3 +362,12 @@ class TrackDesign:
         if changes.get("boot_stiffness", self.boot_stiffness) is None:
             changes.setdefault("boot_static_stiffness", None)
         return dataclasses.replace(self, **changes)
+
+    def __str__(self) -> str:
+        """Return all that there is, with its units."""
+        given = {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
+        given["axle_positions"] = None
+        words = values_in_words(given)
+        if self.axle_positions != ONE_AXLE:
+            words.append(f"axles at {' and '.join(f'{each:g}' for each in self.axle_positions)} m")
+        return ", ".join(words)

@@ -6,9 +6,11 @@ in for a rigid one, narrow enough to catch a slip of units.
 
 import math
 import numbers
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from trackig_core.names import brief
+from trackig_core.words import quantity
 
 
 @dataclass(frozen=True)
@@ -211,3 +213,48 @@ def check_number(field: str, value: object) -> float:
     if not (math.isfinite(number) and low <= number <= high):
         raise DesignError(field, value, allowed)
     return number
+
+
+def amount(field: str, value: float, figures: int = 4) -> str:
+    """Return a value of a field with its unit, such as ``"10.85 MN/m"``.
+
+    Parameters
+    ----------
+    field : str
+        A key of :data:`RANGES`.
+    value : float
+        Value [unit of the field].
+    figures : int
+        Figures that are shown [-].
+
+    Returns
+    -------
+    str
+        The value in words.
+    """
+    return quantity(value, RANGES[field][2], figures)
+
+
+def values_in_words(values: Mapping[str, object]) -> list[str]:
+    """Return what fields are called and their values with units, of those that there are (list of str).
+
+    Parameters
+    ----------
+    values : mapping
+        Values by field, or by path of a number of suspension or ground [unit of the field].
+
+    Returns
+    -------
+    list of str
+        Such as ``["boot stiffness 28 MN/m"]``; what is no number says itself what it is,
+        in brackets if that takes commas.
+    """
+    texts = {
+        name: amount(name, value) if isinstance(value, float) else str(value)
+        for name, value in values.items()
+        if value is not None
+    }
+    return [
+        f"{name.replace('.', ' ').replace('_', ' ')} {f'({text})' if ',' in text else text}"
+        for name, text in texts.items()
+    ]

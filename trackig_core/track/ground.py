@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 
 from trackig_core.names import named
-from trackig_core.track.fields import check_number
+from trackig_core.track.fields import check_number, values_in_words
 
 
 @dataclass(frozen=True)
@@ -77,6 +77,11 @@ class Ground:
         }
         r, G, nu, rho = (check_number(name, value) for name, value in given.items())
         return cls(4 * G * r / (1 - nu), 3.4 * r**2 * math.sqrt(rho * G) / (1 - nu), 0.0)
+
+    def __str__(self) -> str:
+        """Return what there is with its unit."""
+        words = values_in_words({f"ground.{name}": value for name, value in vars(self).items()})
+        return ", ".join(each.removeprefix("ground ") for each in words)
 
 
 FOOT_RADIUS = 0.3

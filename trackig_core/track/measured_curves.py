@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.bands import BAND_CENTRES, BAND_LABELS
 from trackig_core.names import brief
+from trackig_core.words import quantity, span
 
 MOST_POINTS = 1000
 """Rows that a table may have [-]."""
@@ -85,6 +86,13 @@ class LossFactorCurve:
         """Nominal mid-band frequencies, as text, of bands beyond the first and the last point [Hz]."""
         return _extrapolated(self.points)
 
+    def __str__(self) -> str:
+        """Return how many points there are, and their range."""
+        frequency, loss = np.array(self.points).T
+        return (
+            f"measured at {frequency.size} frequencies, {span(frequency, 'Hz')}: loss factor {span(loss, '')}"
+        )
+
 
 @dataclass(frozen=True)
 class StiffnessCurve:
@@ -136,6 +144,15 @@ class StiffnessCurve:
         """Return whether given frequencies [Hz] lie between the first and the last point; same shape."""
         frequency = np.asarray(frequency)
         return (frequency >= self.points[0][0]) & (frequency <= self.points[-1][0])
+
+    def __str__(self) -> str:
+        """Return how many points there are, their range with its units, and the preload."""
+        frequency, stiffness, loss = np.array(self.points).T
+        preload = "" if self.preload is None else f", preload {quantity(self.preload, 'N')}"
+        return (
+            f"measured at {frequency.size} frequencies, {span(frequency, 'Hz')}: {span(stiffness, 'N/m')}, "
+            f"loss factor {span(loss, '')}{preload}"
+        )
 
 
 def _extrapolated(points: Sequence[Sequence[float]]) -> tuple[str, ...]:

@@ -56,6 +56,10 @@ class StiffnessReading:
     suggestion: str
     notes: tuple[str, ...]
 
+    def __str__(self) -> str:
+        """Return the curve, the unit in which the table was read, and what is asked of it."""
+        return " ".join([f"{self.curve}, read in {self.unit}.", *([self.question] if self.question else [])])
+
 
 class _Columns(NamedTuple):
     frequency: Column

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from trackig_core.names import allowed, is_name, named
 from trackig_core.track.fields import RAIL_FIELDS, DesignError, check_number
+from trackig_core.words import quantity
 
 STEEL_MODULUS = 210e9
 """Young's modulus of rail steel [Pa]."""
@@ -51,6 +52,10 @@ class Rail:
             raise DesignError("name", self.name, allowed())
         for field in RAIL_FIELDS:
             object.__setattr__(self, field.name, check_number(field.name, getattr(self, field.name)))
+
+    def __str__(self) -> str:
+        """Return name, mass and bending stiffness with their units."""
+        return f"{self.name} ({self.mass_per_metre:.4g} kg/m and {quantity(self.bending_stiffness, 'N m2')})"
 
 
 PAPER_RAIL = Rail("60", mass_per_metre=60.0, bending_stiffness=210e9 * 3038e-8)

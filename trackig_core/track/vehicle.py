@@ -20,7 +20,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from trackig_core.names import named
-from trackig_core.track.fields import DesignError, check_number
+from trackig_core.track.fields import DesignError, check_number, values_in_words
+from trackig_core.words import quantity
 
 if TYPE_CHECKING:
     from trackig_core.arrays import AnyArray, RealArray
@@ -73,6 +74,11 @@ class Suspension:
         """Secondary stiffness [N/m], damping [N s/m] and body mass [kg]; zeros where the body is left out."""
         return self.secondary_stiffness or 0.0, self.secondary_damping or 0.0, self.body_mass or 0.0
 
+    def __str__(self) -> str:
+        """Return what there is with its unit."""
+        given = {f"suspension.{each.name}": getattr(self, each.name) for each in fields(self)}
+        return ", ".join(each.removeprefix("suspension ") for each in values_in_words(given))
+
 
 @dataclass(frozen=True)
 class Vehicle:
@@ -97,6 +103,12 @@ class Vehicle:
     suspension: Suspension
     wheelbase: float
     source: str
+
+    def __str__(self) -> str:
+        """Return name, masses, suspension and wheelbase with their units."""
+        wheel, apart = quantity(self.wheel_mass, "kg"), quantity(self.wheelbase, "m")
+        words = f"wheel mass {wheel}, suspension ({self.suspension}), wheelbase {apart}"
+        return f"{self.name}: {words} ({self.source})"
 
 
 _GENERIC = "generic: round figures of the kind, not those of a vehicle"

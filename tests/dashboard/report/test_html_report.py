@@ -8,11 +8,12 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from markupsafe import escape
 
 import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.formats import signed_text
-from dashboard.report.html_report import html_report
+from dashboard.report.html_report import Particulars, html_report
 from dashboard.session.results import SolutionSummary
 from dashboard.teaching.left_out import left_out
 
@@ -110,6 +111,24 @@ def test_nothing_in_the_report_runs_or_asks_for_anything(report):
 def test_names_are_shown_as_they_are(report):
     assert HOSTILE not in report
     assert "&lt;script&gt;alert" in report
+
+
+def test_whose_report_it_is_stands_in_its_header_if_that_is_said(report, study, summaries):
+    assert "<dl>" not in report
+    particulars = Particulars(project="Line 7, west", author=HOSTILE)
+    text = html_report(study, summaries, date=DAY, version="9.8.7", particulars=particulars)
+    header = text[text.index("<header>") : text.index("</header>")]
+    assert "<dt>Project</dt><dd>Line 7, west</dd>" in header
+    assert f"<dt>Author</dt><dd>{escape(HOSTILE)}</dd>" in header
+    assert "Client" not in header
+    assert HOSTILE not in text
+    assert Reader(text).open == []
+
+
+@pytest.mark.parametrize("name", [" Line 7", "Line\n7", "x" * 61, None, 7])
+def test_particulars_are_names(name):
+    with pytest.raises(ValueError, match=r"^client = .*give a name of 1 to 60 printable characters"):
+        Particulars(client=name)
 
 
 def test_identifiers_are_unique_and_referenced_ones_exist(report):

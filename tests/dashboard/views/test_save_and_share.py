@@ -404,6 +404,21 @@ def test_the_report_shows_what_is_on_screen(session, exchange):
     assert not view.report.loading
 
 
+def test_a_report_says_whose_it_is_where_that_is_a_name(session, exchange):
+    session.show("booted-sleeper")
+    view = SaveAndShare(session.snapshot, exchange)
+    view.particulars["client"].value = " Metro <Co> "
+    view.particulars["author"].value = "no\nname"
+    assert view.particulars["author"].error_state
+    assert "printable characters" in view.particulars["author"].helper_text
+    asyncio.run(view._save_report())
+    _, text, _ = exchange.saved[-1]
+    assert "<dt>Client</dt><dd>Metro &lt;Co&gt;</dd>" in text
+    assert "<dt>Author" not in text
+    view.particulars["author"].value = ""
+    assert not view.particulars["author"].error_state
+
+
 def test_a_report_without_a_picture_is_refused_in_words(session, exchange):
     view = SaveAndShare(session.snapshot, exchange)
     asyncio.run(view._save_report())
