@@ -261,9 +261,9 @@ def tabs(snapshot, makers, exchange, last):
 
 
 def notify_of_problems(problems):
-    """Say what of a link could not be followed, a step for each: two in one message break the second."""
-    for words in problems:
-        notify("warning", words)
+    """Say what of a link could not be followed, as a step: in one message, since more would cover plots."""
+    if problems:
+        notify("warning", " ".join(problems))
         yield
 
 

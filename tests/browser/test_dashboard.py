@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
-from tests.browser.conftest import hover_until_shown, wait_for_levels
+from tests.browser.conftest import hover_until_shown, wait_for_levels, wait_until_solved
 
 pytestmark = pytest.mark.browser
 
@@ -274,6 +274,20 @@ def test_the_pictures_stay_put_whatever_the_status_says(open_dashboard):
     slider(page, "Pad loss factor").press("Home")
     expect(page.get_by_role("button", name="Stop")).to_be_visible()
     assert page.evaluate(top) == before
+
+
+@pytest.mark.usefixtures("open_dashboard")
+def test_all_that_a_link_gets_wrong_is_told_at_once_above_what_is_looked_at(reader):
+    page = reader.open_at_once(1024, 768, "?pad_stiffness=-5&block_mass=1e9&tab=none&nothing=1")
+    told = page.locator(".MuiAlert-root")
+    expect(told).to_contain_text("Pad stiffness is -5 kN/mm, and its box takes 10 to 2000 kN/mm")
+    expect(told).to_have_count(1)
+    figure = page.get_by_text("Insertion gain", exact=True).first
+    expect(figure).to_be_visible()
+    toast = told.bounding_box()
+    assert toast["y"] + toast["height"] < figure.bounding_box()["y"]
+    wait_until_solved(page)
+    assert (shown(page, "Pad stiffness, kN/mm"), shown(page, "Block mass, kg")) == (100, 45)
 
 
 def test_sessions_do_not_disturb_each_other(published_dashboard, open_dashboard):
