@@ -93,6 +93,9 @@ FILL_ALPHA = 0.22
 BAR_ALPHA = 0.8
 LINE_WIDTH = 3
 PINNED_LINE_WIDTH = 2.5
+COPY_MORE_WIDTH = 6.5
+"""By how much a pinned design's line below the current one's is wider: it is seen on both sides [px]."""
+
 LIMIT_LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
 FAILING_SIZE = "18px"
