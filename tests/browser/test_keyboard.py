@@ -127,7 +127,7 @@ def test_all_four_questions_are_asked_by_keys_alone(open_dashboard):
     go(page, "^How sure.$", "button")
     page.keyboard.press("Enter")
     answer(page, "compl.*of production|complies")
-    go(page, "^Over the tolerances$", "button")
+    go(page, "^Which tolerance.$", "button")
     page.keyboard.press("Enter")
     answer(page, "of the scatter of the governing margin is due to")
 

@@ -42,6 +42,8 @@ class Asked:
 
     kind = ""
     hint = ""
+    before = ""
+    """What to do for an answer, said where it will be."""
 
     def __init__(self, snapshot, exchange, inquiry=None):
         self.snapshot, self._exchange = snapshot, exchange
@@ -49,7 +51,10 @@ class Asked:
         self.inquiry = Inquiry() if inquiry is None else inquiry
         self.runner = InquiryRunner(self.inquiry) if inquiry is None else inquiry.runner
         self.sentence = pn.pane.HTML(
-            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(2, 12, 2, 12)
+            _paragraph(self.before, "note"),
+            stylesheets=[theme.ANSWER_CSS],
+            sizing_mode="stretch_width",
+            margin=(2, 12, 2, 12),
         )
         self.progress = pmui.LinearProgress(
             value=0, variant="determinate", width=160, visible=False, margin=(16, 0, 0, 12)
@@ -107,7 +112,7 @@ class Asked:
         self._say(self.words(result), "fine", self.hint)
 
     def _say(self, words, kind="note", hint=""):
-        self.sentence.object = said(words, kind) + (hint and f'<p class="note">{html.escape(hint)}</p>')
+        self.sentence.object = said(words, kind) + _paragraph(hint, "note")
 
     def words(self, result):
         """Return the answer in one sentence."""
@@ -153,6 +158,11 @@ class Asked:
 
     def _save(self, text):
         self._exchange.save(file_name(self.assessment.title, self.kind, "answer.csv"), text)
+
+
+def _paragraph(words, kind):
+    """Return words of a kind as a paragraph, if there are any (HTML)."""
+    return words and f'<p class="{kind}">{html.escape(words)}</p>'
 
 
 def said(words, kind):
