@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from dashboard.views.learn import EXPLAINING
-from tests.browser.conftest import wait_until_at_rest, wait_until_drawn
+from tests.browser.conftest import wait_until_at_rest, wait_until_drawn, wait_until_solved
 from tests.browser.test_decide import LIMITS
 from tests.browser.test_workshop import open_tab
 
@@ -178,6 +178,44 @@ def test_tools_of_a_figure_are_reached_by_keys(open_dashboard):
     with page.expect_download() as saved:
         page.keyboard.press("Enter")
     assert saved.value.suggested_filename.startswith("picture")
+
+
+def test_the_status_line_keeps_the_focus_when_it_says_something_new(dashboard):
+    mass = dashboard.get_by_role("textbox", name="Block mass, kg: type a number")
+    mass.fill("103.7")
+    mass.press("Enter")
+    status = dashboard.get_by_role("status", name="Status")
+    expect(status).to_contain_text("Paper's run, solved in")
+    status.focus()
+    dashboard.keyboard.press("Control+z")
+    expect(mass).to_have_value("45")
+    expect(status).to_contain_text("solved before")
+    expect(status).to_be_focused()
+
+
+def test_a_reload_keeps_what_is_there_and_says_that_it_forgets_the_steps(dashboard):
+    undo = dashboard.get_by_role("button", name="Undo (Ctrl+Z). Loading the page anew keeps all that is on it")
+    mass = dashboard.get_by_role("textbox", name="Block mass, kg: type a number")
+    mass.fill("107")
+    mass.press("Enter")
+    expect(undo).to_be_enabled()
+    open_tab(dashboard, "Specification")
+    dashboard.get_by_role("textbox", name="Paste a table").fill("63\t-4")
+    dashboard.get_by_role("button", name="Take what is pasted").click()
+    limit = dashboard.get_by_role("textbox", name="Limit, dB, 63 Hz")
+    expect(limit).to_have_value("-4")
+    dashboard.wait_for_function(
+        """() => {
+            const {study, query} = JSON.parse(sessionStorage.getItem("trackig"))
+            return study.includes("[specification]") && query.includes("block_mass=107&") &&
+                query.includes("tab=specification")
+        }"""
+    )
+    dashboard.reload()
+    wait_until_solved(dashboard)
+    expect(mass).to_have_value("107")
+    expect(limit).to_have_value("-4")
+    expect(undo).to_be_disabled()
 
 
 def test_whatever_takes_the_focus_has_a_name(open_dashboard):
