@@ -193,6 +193,9 @@ select.bk-input option { color: var(--panel-on-background-color); background: va
 """
 """The browser's own select, legible from afar; its arrow follows the theme."""
 
+TOOLTIP_CSS = ".MuiTooltip-popper .MuiTooltip-tooltip { width: max-content; max-width: 250px; }"
+"""What a button says of itself, in lines of several words however narrow the button is."""
+
 CHECKS_CSS = """
 .bk-input-group { flex-wrap: wrap; }
 .bk-input-group.bk-inline > *:not(:first-child) { margin-left: 0; }

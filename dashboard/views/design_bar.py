@@ -62,6 +62,7 @@ class DesignBar(Viewer):
             label="Pin",
             icon="push_pin",
             description="Pin this design",
+            stylesheets=[theme.TOOLTIP_CSS],
             variant="contained",
             size="small",
             on_click=self._pin,
@@ -99,4 +100,4 @@ class DesignBar(Viewer):
 SINCE_LOADED = ". Loading the page anew keeps all that is on it, and forgets the steps."
 """What of a session outlives a page: its state, which the browser remembers, and not how it came about."""
 
-STEP = {"size": "small", "variant": "text", "margin": 0}
+STEP = {"size": "small", "variant": "text", "margin": 0, "stylesheets": [theme.TOOLTIP_CSS]}
