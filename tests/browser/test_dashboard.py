@@ -139,12 +139,11 @@ def test_dragging_a_slider_ends_on_the_paper_run_of_its_last_value(published_das
     expect(dashboard.get_by_text("paper's run", exact=True)).to_be_visible()
 
 
-def test_pictures_follow_the_hand_in_order(published_dashboard):
+def test_pictures_follow_the_hand_in_order(dashboard):
     """Stiffer boots raise the gain at 63 Hz step by step: a stale frame would step back.
 
     One position of the slider raises it by more than exact curve and live run of one design differ.
     """
-    dashboard = published_dashboard
     dashboard.evaluate(WATCH)
     drag(dashboard, "Boot stiffness, kN/mm", 30, pause=30, pictures=8)
     while_moving = dashboard.evaluate("() => window.frames_drawn")
