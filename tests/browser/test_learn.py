@@ -219,8 +219,7 @@ def test_every_subject_is_told_within_the_window(kept_dashboard, subject, words,
     assert page.evaluate("() => document.scrollingElement.scrollWidth") <= width
 
 
-def test_the_resonances_point_follows_the_slider(published_dashboard):
-    dashboard = published_dashboard
+def test_the_resonances_point_follows_the_slider(dashboard):
     look_at(dashboard, "Resonances")
     model(dashboard, "present", "name")
     field = box(dashboard, "Boot stiffness, kN/mm")
