@@ -15,6 +15,7 @@ from panel.util import edit_readonly
 from dashboard import theme
 from dashboard.client.browser import Browser
 from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
+from dashboard.compute import delivery
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.document import in_turns
 from dashboard.compute.feasibility import Feasibility
@@ -53,6 +54,8 @@ SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bew
 CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
 
 log = logging.getLogger(__name__)
+
+delivery.install()
 
 
 class Busy(param.Parameterized):

@@ -202,6 +202,8 @@ def test_numbers_of_the_ground_are_offered_and_answered(open_dashboard):
     page.get_by_role("checkbox", name="A change for each field").click()
     share = page.get_by_label("Ground stiffness, ± %").first
     expect(share).to_have_value("10")
+    # boxes that come push others aside and are drawn anew, which loses what is typed meanwhile
+    wait_until_at_rest(page)
     share.fill("20")
     share.press("Enter")
     design = OPENING.replace(ground=tig.GROUNDS["rock"])

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from dashboard.views.learn import EXPLAINING
-from tests.browser.conftest import wait_until_at_rest, wait_until_drawn, wait_until_solved
+from tests.browser.conftest import WANDERED, wait_until_at_rest, wait_until_drawn, wait_until_solved
 from tests.browser.test_decide import LIMITS
 from tests.browser.test_workshop import open_tab
 
@@ -92,7 +92,7 @@ def go(page, name, role=None, key="Tab"):
 
 def answer(page, words):
     """Wait for an answer that can be read aloud."""
-    expect(page.get_by_role("status").filter(has_text=re.compile(words)).first).to_be_visible()
+    page.get_by_role("status").filter(has_text=re.compile(words)).first.wait_for()
 
 
 def go_to_tab(page, name, key):
@@ -100,6 +100,11 @@ def go_to_tab(page, name, key):
     go(page, "^(Explore|Specification|Decide|Map)$", "tab", key)
     go(page, f"^{name}$", "tab", "ArrowRight")
     page.keyboard.press("Enter")
+
+
+def is_open(summary):
+    """Return whether a group is unfolded, by its summary."""
+    return summary.locator("xpath=..").get_attribute("open") is not None
 
 
 def test_all_four_questions_are_asked_by_keys_alone(open_dashboard):
@@ -168,8 +173,8 @@ def test_all_four_questions_are_asked_by_keys_alone(open_dashboard):
     assert Told(page).nameless() == []
 
 
-def test_tools_of_a_figure_are_reached_by_keys(open_dashboard):
-    page = open_dashboard()
+def test_tools_of_a_figure_are_reached_by_keys(untouched_dashboard):
+    page = untouched_dashboard
     wait_until_drawn(page, "insertion_gain_figure")
     go(page, "^Insertion gain per", "group")
     go(page, "^Save$", "button")
@@ -220,12 +225,14 @@ def test_a_reload_keeps_what_is_there_and_says_that_it_forgets_the_steps(dashboa
     expect(undo).to_be_disabled()
 
 
-def test_whatever_takes_the_focus_has_a_name(open_dashboard):
-    page = open_dashboard()
+def test_whatever_takes_the_focus_has_a_name(kept_dashboard):
+    page = kept_dashboard(left=WANDERED)
     told = Told(page)
-    for group in page.locator("summary").all():
-        if group.locator("xpath=..").get_attribute("open") is None:
-            group.click()
+    sidebar = page.get_by_role("navigation")
+    folded = [each for each in sidebar.locator("summary").all() if not is_open(each)]
+    assert folded
+    for group in folded:
+        group.click()
     for tab, last in LAST_PARTS.items():
         open_tab(page, tab)
         expect(page.get_by_role("heading", name=last, exact=True)).to_be_visible()
@@ -238,3 +245,5 @@ def test_whatever_takes_the_focus_has_a_name(open_dashboard):
         expect(page.locator("h2:visible").first).to_be_visible()
         wait_until_at_rest(page)
         assert told.nameless() == [], subject.title
+    for group in folded:
+        group.click()

@@ -296,7 +296,8 @@ def test_all_can_be_reached_and_is_named(blank):
     expect(blank.get_by_text("the softer, the lower it isolates")).to_be_visible()
 
 
-def test_a_drag_sends_no_more_than_is_answered(dashboard):
+def test_a_drag_sends_no_more_than_is_answered(published_dashboard):
+    dashboard = published_dashboard
     dashboard.evaluate(
         """() => {
             window.sets = 0
