@@ -15,6 +15,7 @@ from panel.util import edit_readonly
 from dashboard import theme
 from dashboard.client.browser import Browser
 from dashboard.client.exchange import HANDLING_FAILED, Exchange, notify
+from dashboard.compute import delivery
 from dashboard.compute.checker import VerificationRunner
 from dashboard.compute.document import in_turns
 from dashboard.compute.feasibility import Feasibility
@@ -53,6 +54,8 @@ SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bew
 CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
 
 log = logging.getLogger(__name__)
+
+delivery.install()
 
 
 class Busy(param.Parameterized):
@@ -261,9 +264,9 @@ def tabs(snapshot, makers, exchange, last):
 
 
 def notify_of_problems(problems):
-    """Say what of a link could not be followed, a step for each: two in one message break the second."""
-    for words in problems:
-        notify("warning", words)
+    """Say what of a link could not be followed, as a step: in one message, since more would cover plots."""
+    if problems:
+        notify("warning", " ".join(problems))
         yield
 
 

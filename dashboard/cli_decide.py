@@ -284,7 +284,7 @@ def _add_scatter(command, samples):
         type=_tolerance,
         dest="tolerances",
         metavar="FIELD=SHARE",
-        help="10%% or 0.1: anything within; normal:5%%: that standard deviation",
+        help="10%% or 0.1: even within ±10 %%; normal:5%%: bell curve of that standard deviation",
     )
     command.add_argument(
         "--production",

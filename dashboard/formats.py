@@ -135,9 +135,9 @@ def extrapolated_text(name):
     return f"beyond what was measured of {name}"
 
 
-def signed_text(level):
-    """Return a level for a column of a table: sign, one decimal, no unit; zero has no sign."""
-    text = f"{level:+.1f}"
+def signed_text(level, decimals=1):
+    """Return a difference or level for a column of a table: sign, decimals, no unit; nothing is 0.0."""
+    text = f"{level:+.{decimals}f}"
     return "0.0" if float(text) == 0 else text.replace("-", "−")
 
 
@@ -164,6 +164,18 @@ def difference_text(difference):
 def quantity_text(value):
     """Return an input's value as it is typed: up to six figures, no trailing zeros."""
     return f"{value:.6g}"
+
+
+def extent_text(points):
+    """Return how many bands a table has and where, such as ``"6 bands, 31.5 to 125 Hz"``.
+
+    Parameters
+    ----------
+    points : sequence of (float, float)
+        Rows of frequency [Hz], ascending, and level [dB]; one or more.
+    """
+    first, last = (quantity_text(points[end][0]) for end in (0, -1))
+    return f"1 band, {first} Hz" if len(points) == 1 else f"{len(points)} bands, {first} to {last} Hz"
 
 
 def name_text(name, longest):

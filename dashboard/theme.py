@@ -96,6 +96,9 @@ FILL_ALPHA = 0.22
 BAR_ALPHA = 0.8
 LINE_WIDTH = 3
 PINNED_LINE_WIDTH = 2.5
+COPY_MORE_WIDTH = 6.5
+"""By how much a pinned design's line below the current one's is wider: it is seen on both sides [px]."""
+
 LIMIT_LINE_WIDTH = 3
 THIN_LINE_WIDTH = 2
 FAILING_SIZE = "18px"
@@ -192,6 +195,9 @@ select:not([multiple]).bk-input.bk-input {
 select.bk-input option { color: var(--panel-on-background-color); background: var(--panel-background-color); }
 """
 """The browser's own select, legible from afar; its arrow follows the theme."""
+
+TOOLTIP_CSS = ".MuiTooltip-popper .MuiTooltip-tooltip { width: max-content; max-width: 250px; }"
+"""What a button says of itself, in lines of several words however narrow the button is."""
 
 CHECKS_CSS = """
 .bk-input-group { flex-wrap: wrap; }
@@ -414,8 +420,8 @@ summary::after {{
 details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3px; }}
 
 .quantity {{ display: grid; grid-template-columns: 1fr 104px; column-gap: 10px; align-items: center; }}
-.quantity {{ margin-top: 4px; }}
-.name {{ grid-column: 1; display: flex; align-items: center; gap: 6px; line-height: 22px; }}
+.quantity {{ margin-top: 2px; }}
+.name {{ grid-column: 1; display: flex; align-items: center; gap: 6px; line-height: 20px; }}
 .label {{ color: var(--faint); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }}
 .help {{
     flex: none; width: 16px; height: 16px; padding: 0; font-size: 11px; line-height: 14px; text-align: center;
@@ -464,9 +470,9 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
 }}
 .stretch.begins::before {{ left: 0; }}
 .stretch.ends::after {{ right: 0; }}
-.edges {{ grid-column: 1; position: relative; height: 20px; margin: 0 7px; }}
+.edges {{ grid-column: 1; position: relative; height: 18px; margin: 0 7px; }}
 .edge {{
-    position: absolute; transform: translateX(-50%); padding: 0 5px; font-size: 13px; line-height: 17px;
+    position: absolute; transform: translateX(-50%); padding: 0 5px; font-size: 13px; line-height: 15px;
     border: 1px solid {COMPLIES}; border-radius: 9px; background: var(--panel-background-color);
     cursor: pointer;
     font-variant-numeric: tabular-nums;
@@ -497,7 +503,7 @@ details[open] > summary::after {{ transform: rotate(-135deg); margin-bottom: -3p
 }}
 .chip:hover {{ background: color-mix(in srgb, var(--accent) 15%, transparent); }}
 .pick {{
-    width: 116px; height: 24px; margin-left: auto; margin-right: 12px; padding: 0 20px 0 8px; font-size: 13px;
+    width: 132px; height: 24px; margin-left: auto; margin-right: 12px; padding: 0 20px 0 8px; font-size: 13px;
     font-weight: 400; letter-spacing: 0;
 }}
 .disabled .label, .disabled .box, .disabled .track {{ opacity: 0.45; }}

@@ -1,8 +1,8 @@
 """Order of the tests, and how Hypothesis draws examples.
 
-Tests run in two processes. Those in a browser come first, since they take longest, and stay together module
-by module, since opening a browser is dear; other slow ones come next, so that no process waits for the other
-to end one. (A mark of pytest-xdist's would say so, too, but that of 3.8 means nothing to pytest 9.2.)
+Tests run in two processes. Those in a browser come first, since they take longest, and stay together by the
+pages that they share, since opening one is dear; other slow ones come next, so that no process waits for the
+other to end one. (A mark of pytest-xdist's would say so, too, but that of 3.8 means nothing to pytest 9.2.)
 
 A run that decides whether a change may land draws the same examples every time; others explore. No example
 has a deadline: the first may compile kernels, and machines are shared.
@@ -15,11 +15,21 @@ from xdist.scheduler import LoadScopeScheduling
 
 import trackig_core as tig
 
-TOGETHER = ("tests/browser/", "tests/core/decide/test_cluster.py", "tests/core/test_compiling.py")
-"""Modules, or folders of such, that stay in one process each: browsers, servers and caches are dear."""
-
-SERVED = "tests/dashboard/server"
-"""Folder whose modules share one server."""
+ROOMS = (
+    (
+        "tests/browser/test_compare.py",
+        "tests/browser/test_dashboard.py",
+        "tests/browser/test_keyboard.py",
+        "tests/browser/test_learn.py",
+    ),
+    ("tests/browser/",),
+    ("tests/dashboard/server",),
+    ("tests/core/decide/test_cluster.py",),
+    ("tests/core/test_compiling.py",),
+)
+"""Modules, or folders of such, each of which stays in one process, by what it shares: browsers, servers,
+clusters, caches, and pages whose tabs were made once are dear. The first that fits counts; tests in a browser
+are two, of about the same length."""
 
 settings.register_profile("explore", deadline=None)
 settings.register_profile("ci", derandomize=True, deadline=None)
@@ -41,10 +51,7 @@ class Together(LoadScopeScheduling):
     """Gives what shares something dear to one process, and every other test to the first that is free."""
 
     def _split_scope(self, nodeid):
-        module = nodeid.partition("::")[0]
-        if module.startswith(TOGETHER):
-            return module
-        return SERVED if module.startswith(SERVED) else nodeid
+        return next((room[0] for room in ROOMS if nodeid.startswith(room)), nodeid)
 
 
 def pytest_xdist_make_scheduler(config, log):

@@ -43,14 +43,23 @@ BUSY_REST = 1.5
 """The same on a busy server, where pictures wait for whatever else is done."""
 
 COPIED = "The link is copied: it holds the design, the pinned designs and the view."
-NEEDS_FILE = "The link is copied, but needs the study file: it cannot hold {}. Send the study with it."
+NEEDS_FILE = (
+    "The link is copied. It leaves out what only the study file holds: {}. "
+    "Save the study (Save & share) and send it too."
+)
 NOT_COPIED = "The browser does not let the page copy. Copy the address from the address bar: it is the link."
 HANDLING_FAILED = "Something went wrong; the server's log has the details."
 NOT_RECALLED = "The catalogue that this browser remembered cannot be read any more; it is forgotten."
 NOT_RESTORED = "What this page showed before the connection was lost could not be read back."
 
+PLACE = "top-center"
+"""Where notifications stand: over the header, where they cover no control of the sidebar and no figure."""
+
 LASTING = {"success": 3000, "warning": 8000, "error": 8000}
-"""How long a notification of each kind stays [ms]."""
+"""How long a notification of each kind stays at least [ms]."""
+
+READING = 60
+"""Milliseconds that it takes to read a character, and a long notification stays for each."""
 
 log = logging.getLogger(__name__)
 
@@ -99,6 +108,9 @@ class Exchange(Scripted):
         super().__init__(
             session=secrets.token_hex(8), width=0, height=0, margin=0, styles={"position": "absolute"}
         )
+        if pn.state.notifications is not None:
+            # the browser heeds where notifications stand when it is first told, and never again
+            pn.state.notifications.position = PLACE
         self._snapshot, self._shelf, self._pace = snapshot, shelf or Shelf(), pace or Pace()
         self._openers, self._key_listeners = {}, {}
         self._waiting = False
@@ -213,17 +225,15 @@ class Exchange(Scripted):
 def notify(kind, words):
     """Show the user a notification of a kind: ``"success"``, ``"warning"`` or ``"error"``.
 
-    It stands in the header, where it covers no control and no figure. A success takes away what was said
-    before it.
+    A success takes away what was said before it.
     """
     area = pn.state.notifications
     if area is None:
         return
-    area.position = "top-center"
     if kind == "success":
         for earlier in [*area.notifications]:
             earlier.destroy()
-    getattr(area, kind)(words, duration=LASTING[kind])
+    getattr(area, kind)(words, duration=max(LASTING[kind], READING * len(words)))
 
 
 def opening(purpose):

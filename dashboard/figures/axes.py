@@ -159,14 +159,14 @@ def show_bands(plot, every=1):
     return BandAxis(plot, every)
 
 
-TICKS = [factor * 10.0**power for power in range(-2, 4) for factor in (1, 2, 5)]
-"""Ticks of a logarithmic axis of any input, or of frequencies."""
+TICKS = [factor * 10.0**power for power in range(-2, 7) for factor in (1, 2, 5)]
+"""Ticks of a logarithmic axis of any input, of frequencies, or of the receptance of the softest track."""
 
 
 def show_one_two_five(axis):
     """Give a logarithmic axis ticks at 1, 2 and 5 times the powers of ten, as plain numbers."""
     axis.ticker = FixedTicker(ticks=TICKS)
-    axis.major_label_overrides = {tick: f"{tick:g}" for tick in TICKS}
+    axis.major_label_overrides = {tick: f"{tick:.7g}" for tick in TICKS}
 
 
 def zero_line(dimension="width"):

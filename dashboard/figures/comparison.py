@@ -105,6 +105,7 @@ class DesignsFigure:
         current = next((each for result, each in pairs if result.key is None), None)
         self.curves.data = _columns(of_pins, current, reference)
         self._pinned.show(pinned)
+        self._pinned.set_off(next((each for each, _ in pairs if each.key is None), None))
         self._current.visible = current is not None
         self._reference.visible = reference is not None
         own = [] if current is None else [THIS_DESIGN]

@@ -202,6 +202,7 @@ class ForceFigure:
             self._pinned.show(stepped)
             totals = [each.summary.total_force for each in stepped]
             self._reach = [(total.min(), total.max()) for total in totals]
+        self._pinned.set_off(current)
         self._list_what_is_drawn([each for each in pinned if each not in stepped])
 
     def _list_what_is_drawn(self, without_force=()):

@@ -308,6 +308,7 @@ class InsertionGainFigure:
         self._loaded_track.show(None if alone else natural.loaded_track, self._axis.ends)
         self._coupled_block.show(None if alone else natural.coupled_block, self._axis.ends)
         self._show_pinned(pinned, is_new)
+        self._pinned.set_off(None if alone else current)
         self._show_measured(measured)
         self._name_on_hover(pinned, alone)
         self._list_what_is_drawn(pinned)

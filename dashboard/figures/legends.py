@@ -108,6 +108,7 @@ class PinnedLines:
 
     def __init__(self, plot, front, sources, x, columns):
         self.lines = []
+        self._pinned = ()
         self._plot, self._front, self._x = plot, front, x
         self._unmade = list(zip(sources, columns, strict=True))
 
@@ -137,6 +138,30 @@ class PinnedLines:
             line.glyph.update(line_color=each.colour, line_dash=list(each.dash))
         for place, line in enumerate(self.lines):
             line.visible = place < len(pinned)
+        self._pinned = tuple(pinned)
+
+    def set_off(self, current):
+        """Draw pinned designs whose curve lies below that of the current design so that both are seen.
+
+        Parameters
+        ----------
+        current : DesignResult or None
+            The current design, drawn in front of them; None: it is not drawn.
+        """
+        for line, each in zip(self.lines, self._pinned, strict=False):
+            line.glyph.line_width = theme.PINNED_LINE_WIDTH + more_width(each, current)
+
+
+def more_width(pinned, current):
+    """Return by how much a pinned design's line is wider [px] so that it is seen below the current one's.
+
+    Parameters
+    ----------
+    pinned, current : DesignResult
+        The designs; current None: it is not drawn.
+    """
+    is_copy = current is not None and pinned.design.without_statics == current.design.without_statics
+    return theme.COPY_MORE_WIDTH if is_copy else 0
 
 
 def are_the_same(some, others):

@@ -16,6 +16,7 @@ from bokeh.models import ColumnDataSource, CustomJS, Range1d, Select, Slider, Sp
 from bokeh.plotting import figure
 
 from dashboard import theme
+from dashboard.figures.axes import keep_sizes
 
 WHEEL_AT, RAIL_AT, BLOCK_AT, FOOT_AT, FLOOR_AT = 0.66, 0.0, -0.6, -1.1, -1.5
 """Heights at rest: the wheel's centre, the rail, the blocks' centres, the supports' feet, where rigid ground
@@ -104,6 +105,7 @@ class SideView:
         )
         self.model.yaxis.visible = False
         self.model.grid.visible = False
+        keep_sizes(self.model)
         self._draw()
 
     def _draw(self):

@@ -8,7 +8,7 @@ from bokeh.models import ColumnDataSource, HoverTool, Range1d
 
 from dashboard import theme
 from dashboard.figures.axes import blank_figure, show_one_two_five
-from dashboard.figures.legends import Legend, pinned_entry, with_legend
+from dashboard.figures.legends import Legend, more_width, pinned_entry, with_legend
 from dashboard.figures.swatches import swatch_svg
 from dashboard.figures.verification import NANOMETRES_PER_KILONEWTON
 
@@ -75,9 +75,12 @@ class LinesFigure:
 
     def _draw(self, rows, results):
         """Draw rows (x, y, result, dash, width, what), and list the designs and what their lines are."""
+        current = next((each for each in results if each.key is None), None)
+        # what is drawn last is in front: the current design, a pinned copy of it seen on both sides
         columns = [
-            (x, y, result.colour, list(dash or NO_DASH), width, result.name, what)
-            for x, y, result, dash, width, what in rows
+            (x, y, result.colour, list(dash or NO_DASH), width + extra, result.name, what)
+            for x, y, result, dash, width, what in sorted(rows, key=lambda row: row[2].key is None)
+            for extra in [0 if result is current else more_width(result, current)]
         ]
         self.lines.data = {column: [row[place] for row in columns] for place, column in enumerate(COLUMNS)}
         whats = {what: swatch_svg(theme.PRESET_GHOST, dash) for *_, dash, _, what in rows if what == LONGEST}

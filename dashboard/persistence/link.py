@@ -5,8 +5,9 @@ defaults are others. Numbers have six significant figures, as inputs have, in di
 slider shows have as many as they need. Curves, rails of one's own and numbers that the sidebar does not have
 are too much for an address: the link says that they are in the study's file.
 
-A link is hostile: whatever it holds, decoding raises nothing and gives designs that can be solved; what was
-ignored or clamped is said in words that repeat nothing but numbers and the letters of a key.
+A link is hostile: whatever it holds, decoding raises nothing and gives designs that can be solved. A number
+that no track has leaves the preset's; what was ignored is said in words that repeat nothing but numbers and
+the letters of a key.
 """
 
 import math
@@ -41,8 +42,11 @@ VERSION = "1"
 LONGEST_NUMBER, LONGEST_VALUE, LONGEST_KEY = 32, 800, 24
 """Characters that are read of a number, bytes of any value, and characters that are shown of a key."""
 
-MOST_PROBLEMS = 6
-"""Problems of a link that are named one by one."""
+MOST_PROBLEMS = 3
+"""Problems of a link that are named one by one: they are told at once, in a message that covers no plot."""
+
+MOST_OFFERED = 4
+"""Values of a choice that are named as examples."""
 
 SEPARATOR = "~"
 """Stands between the parts of a pin; the name comes last, so that it may hold it."""
@@ -91,7 +95,7 @@ class Link:
     base : int or None
         Number of the pin from which differences are taken, counted from 0.
     problems : tuple of str
-        What was ignored or clamped, in words for the user; no more than a handful.
+        What was ignored, in words for the user; no more than a handful.
     """
 
     values: dict
@@ -139,7 +143,7 @@ def _too_much(special):
 
 
 def left_out(values, pins=()):
-    """Return what a link leaves out, in words; empty if it holds everything.
+    """Return what a link leaves out of designs, in words.
 
     Parameters
     ----------
@@ -150,12 +154,12 @@ def left_out(values, pins=()):
 
     Returns
     -------
-    str
-        Labels of inputs, and names of pinned designs.
+    list of str
+        Labels of inputs, and names of pinned designs; empty if it holds everything.
     """
-    labels = [_label(name).lower() for name in _too_much(values["special"])]
-    names = [f"“{pin.name}”" for pin in pins if _too_much(special_values(pin.design))]
-    return ", ".join([*labels, *names])
+    labels = [f"the {_label(name).lower()}" for name in _too_much(values["special"])]
+    names = [f"the pinned design “{pin.name}”" for pin in pins if _too_much(special_values(pin.design))]
+    return [*labels, *names]
 
 
 def _texts(values):
@@ -287,7 +291,7 @@ def _values(given, whose, problems):
     numbers = {
         name: _number(name, given[name], values[name], whose, problems) for name in NUMBERS if name in given
     }
-    exact = {name: float(f"{value * FIELDS[name].factor:.15g}") for name, value in numbers.items()}
+    exact = {name: _exact(name, value) for name, value in numbers.items()}
     special = {name: value for name, value in exact.items() if not is_on_slider(name, value)}
     shown = {name: on_slider(name, value) for name, value in exact.items()}
     extras = {
@@ -315,30 +319,43 @@ def _surroundings(given, values, whose, problems):
 def _is_allowed(name, text, allowed, whose, problems):
     if text in allowed:
         return True
-    problems.append(f"{whose}{_label(name)} is none of those on offer; it was ignored.")
+    offered = ", ".join((*allowed[:MOST_OFFERED], *["…"] * (len(allowed) > MOST_OFFERED)))
+    problems.append(f"{whose}{_label(name)} in the link is unknown and was ignored; it can be {offered}.")
     return False
 
 
 def _number(name, text, otherwise, whose, problems):
-    """Return a number within the range of what can be solved, an extra one within its slider's range."""
-    if name in EXTRA_FIELDS:
-        low, high = EXTRA_FIELDS[name].low, EXTRA_FIELDS[name].high
-    else:
-        low, high = (end / FIELDS[name].factor for end in RANGES[name][:2])
+    """Return a number that can be solved, an extra one within its slider's range; else the one that stays.
+
+    A link to a study's design holds numbers that the box does not take: those are taken, and said.
+    """
+    field = EVERY_FIELD[name]
     is_number = len(text) <= LONGEST_NUMBER and NUMBER.fullmatch(text)
     number = float(text) if is_number else math.nan
+    stays = "it was ignored" if otherwise is None else f"it stays at {_quantity(otherwise, field)}"
     if not math.isfinite(number):
-        taken = "it was ignored" if otherwise is None else f"{quantity_text(otherwise)} was taken"
         fault = "too large a number" if is_number else "no number"
-        problems.append(f"{whose}{_label(name)} is {fault}; {taken}.")
+        problems.append(f"{whose}{field.label} is {fault}; {stays}.")
         return otherwise
-    clamped = min(max(number, low), high)
-    if clamped != number:
-        problems.append(
-            f"{whose}{_label(name)} is {quantity_text(number)}, beyond {quantity_text(low)} to "
-            f"{quantity_text(high)}; {quantity_text(clamped)} was taken."
-        )
-    return clamped
+    low, high = field.taken
+    if low <= number <= high:
+        return number
+    taken = name in FIELDS and RANGES[name][0] <= _exact(name, number) <= RANGES[name][1]
+    problems.append(
+        f"{whose}{field.label} is {_quantity(number, field)}, and its box takes {quantity_text(low)} to "
+        f"{_quantity(high, field)}; {'it was taken all the same' if taken else stays}."
+    )
+    return number if taken else otherwise
+
+
+def _exact(name, number):
+    """Return a number of a design in its SI unit, to all figures but the dust of the conversion."""
+    return float(f"{number * FIELDS[name].factor:.15g}")
+
+
+def _quantity(number, field):
+    """Return a number of a field as its box shows it, with its unit."""
+    return f"{quantity_text(number)} {field.unit}".rstrip()
 
 
 def _pins(raws, problems):

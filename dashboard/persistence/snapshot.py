@@ -74,8 +74,17 @@ class SessionSnapshot(param.Parameterized):
 
     @property
     def left_out(self):
-        """What a link to the designs on the page leaves out, in words; empty if it holds them all."""
-        return link.left_out(self.inputs.to_values(), self.pins.pinned)
+        """What a link leaves out of all that a study file holds, in words; empty if it holds everything."""
+        assessment = self.assessment
+        beside = {
+            "the specification": assessment.specification,
+            "the source spectrum": assessment.source,
+            "insertion gain from elsewhere": assessment.measured,
+            "the kept answers": self.answers.kept,
+            "the name of the study": assessment.title != tig.Study.name,
+        }
+        held = [*link.left_out(self.inputs.to_values(), self.pins.pinned)]
+        return ", ".join([*held, *(words for words, there in beside.items() if there)])
 
     def study(self):
         """Return everything as a study (trackig_core.Study)."""
@@ -102,7 +111,7 @@ class SessionSnapshot(param.Parameterized):
         Returns
         -------
         tuple of str
-            What was ignored or clamped, in words for the user.
+            What was ignored, in words for the user.
         """
         choices = {**link.VIEW_CHOICES, "alone": ("0", "1"), "tab": tuple(self.param.tab.objects)}
         found = link.decode(arguments, choices)

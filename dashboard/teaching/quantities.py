@@ -15,7 +15,7 @@ after. Units are those of the trade, as on the sliders (:mod:`dashboard.session.
 
 ``at_most`` is the greatest value of a slider, all others held, with which insertion gain in a band keeps a
 limit [dB]; ``production`` is how much of production keeps it while the stiffnesses of pads and boots scatter
-by so many per cent, anything within equally likely.
+by so many per cent, evenly within them.
 
 A name is looked up in the table below; nothing from a text is ever evaluated as code.
 """

@@ -16,13 +16,11 @@ from panel.viewable import Viewer
 import trackig_core as tig
 from dashboard import theme
 from dashboard.client.exchange import Scripted, opening
+from dashboard.formats import extent_text
 from dashboard.persistence.exports import file_name
 from trackig_core.levels.band_tables import MOST_BYTES, NOMINAL
 
 SCRIPT = Path(__file__).parent.parent / "client" / "scripts" / "band_grid.js"
-
-WIDE, NARROW = {"xs": 12, "lg": 9}, {"xs": 12, "lg": 3}
-"""Parts of the width that the table has, and what stands beside it, or below on a narrow screen."""
 
 
 class BandGrid(Scripted):
@@ -90,7 +88,7 @@ class BandEditor(Viewer):
         self._assessment, self._name, self._exchange = assessment, name, exchange
         self.on_read = lambda _: ()
         self._kind = assessment.param[name].class_
-        self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), sizing_mode="stretch_width")
+        self.grid = BandGrid(given=given, words=words, margin=(0, 12, 12, 12), styles=WITHIN)
         self.grid.on_typed, self.grid.on_pasted = self._take_typed, self._take_pasted
         self.message = pn.pane.HTML("", stylesheets=[theme.MESSAGE_CSS], margin=(0, 12, 4, 12))
         # where the table is higher than the window, the first message is out of sight of who pastes below it
@@ -127,9 +125,8 @@ class BandEditor(Viewer):
             self._tell(f"Not taken: {error}.", pane=message)
             return False
         self._keep(reading.table if self.table is None else reading.table.beside(self.table))
-        notes = [*reading.notes, *self.on_read(reading)]
-        if notes:
-            self._tell(f"Taken; {'; '.join(notes)}.", "status", message)
+        notes = [f"Taken: {extent_text(self.table.points)}", *reading.notes, *self.on_read(reading)]
+        self._tell(f"{'; '.join(notes)}.", "status", message)
         return True
 
     def _take_area(self, *_):
@@ -148,6 +145,8 @@ class BandEditor(Viewer):
             )
         else:
             self._change(dict(zip(NOMINAL[band:], values, strict=False)))
+            rows = "1 number" if len(values) == 1 else f"{len(values)} numbers"
+            self._tell(f"Taken: {rows}, from {tig.BAND_LABELS[band]} Hz on.", "status")
 
     def _column(self, text):
         """Return the levels of a column, None where there is none; or None if a line is no level."""
@@ -208,19 +207,22 @@ class BandEditor(Viewer):
         return pmui.Column(
             pmui.FlexBox(self.load, self.template, self.save, self.clear, margin=(0, 12, 0, 12), gap="4px"),
             self.message,
-            pmui.Grid(
-                pmui.Grid(self.grid, size=WIDE),
-                pmui.Grid(
-                    pmui.Column(self.pasted, self.apply, self.answer, sizing_mode="stretch_width"),
-                    size=NARROW,
-                ),
-                container=True,
+            pmui.FlexBox(
+                self.grid,
+                pmui.Column(self.pasted, self.apply, self.answer, styles=BESIDE, margin=0),
                 sizing_mode="stretch_width",
                 margin=0,
             ),
             sizing_mode="stretch_width",
             margin=0,
         )
+
+
+WITHIN = {"flex": "0 1 auto", "max-width": "100%", "box-sizing": "border-box"}
+"""A table is as wide as its columns, and scrolls where there is no room for them."""
+
+BESIDE = {"flex": "1 1 240px", "max-width": "520px"}
+"""What stands beside the table, or below where there is no room."""
 
 
 def _button(label, icon, margin=(4, 8, 4, 0), **kind):

@@ -13,7 +13,16 @@ from dashboard.compute.document import NextTick
 from dashboard.figures.comparison import BaseDifferenceFigure, GainsFigure
 from dashboard.session.pins import PinError
 from dashboard.views.comparison_table import table_html
-from dashboard.views.components import CURRENT, CURRENT_NAME, PAPER, bokeh_pane, caption, gain_axis
+from dashboard.views.components import (
+    CURRENT,
+    CURRENT_NAME,
+    PAPER,
+    bokeh_pane,
+    caption,
+    gain_axis,
+    panel,
+    words,
+)
 from dashboard.views.likeness import Likeness
 from dashboard.views.measured_gains import MeasuredGains
 from dashboard.views.pin_list import PinList
@@ -67,6 +76,9 @@ class Compare(Tab):
             stylesheets=[theme.CHECKS_CSS],
         )
         self.gains, self.differences = GainsFigure(), BaseDifferenceFigure()
+        self._difference_pane = bokeh_pane(self.differences.layout)
+        self._nothing_to_compare = words(NOTHING_TO_COMPARE)
+        self._difference_place = pn.Column(self._nothing_to_compare, sizing_mode="stretch_width", margin=0)
         self.table = pn.pane.HTML("", sizing_mode="stretch_width", stylesheets=[theme.TABLE_CSS], margin=0)
         self._show_later = NextTick(self._show)
         self.bands.param.watch(self._show_later, "value")
@@ -120,7 +132,11 @@ class Compare(Tab):
         self.likeness.show()
         self.gains.name_axis(gain_axis(self._definition, *(each.design for each in assessment.shown)))
         self.gains.show(assessment.shown)
-        self.differences.show(base, [each for each in assessment.shown if each is not base])
+        others = [each for each in assessment.shown if each is not base]
+        self.differences.show(base, others)
+        shown = [self._difference_pane if others else self._nothing_to_compare]
+        if self._difference_place.objects != shown:
+            self._difference_place.objects = shown
         self.table.object = table_html(
             [each for each in assessment.results if each.shown or each is base],
             base,
@@ -143,15 +159,14 @@ class Compare(Tab):
             **PAPER,
         )
         gains = pmui.Paper(caption("Insertion gain", ""), bokeh_pane(self.gains.layout), **PAPER)
-        difference = pmui.Paper(
+        difference = panel(
             pmui.Row(
                 caption("Difference in insertion gain", ""),
                 pn.HSpacer(),
                 self._base_place,
                 sizing_mode="stretch_width",
             ),
-            bokeh_pane(self.differences.layout),
-            **PAPER,
+            self._difference_place,
         )
         table = pmui.Paper(caption("Side by side", ""), self.bands, self.table, **PAPER)
         return pmui.Grid(
@@ -169,6 +184,11 @@ class Compare(Tab):
             margin=(0, 8, 8, 8),
         )
 
+
+NOTHING_TO_COMPARE = (
+    "Nothing to compare yet: pin a design with the button above the sliders, then change the sliders, or "
+    "choose another base."
+)
 
 MEASURED_WORDS = "from site, from a paper, from another program: points in Explore, differences in the table"
 

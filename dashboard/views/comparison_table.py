@@ -152,7 +152,7 @@ def _static_rows(results, base):
             value = getattr(each.statics, name) * factor
             bound = "≥ " if each.statics.at_least and name.endswith("deflection") else ""
             differs = own is not None and each is not base
-            difference = f"{value - own:+.2f}".replace("-", "−") if differs else ""
+            difference = formats.signed_text(value - own, 2) if differs else ""
             cells.append((f"{bound}{value:.2f}", difference))
         yield label, cells
 

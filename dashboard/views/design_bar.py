@@ -35,7 +35,7 @@ class DesignBar(Viewer):
         self.undo = pmui.Button(
             label="Undo",
             icon="undo",
-            description="Undo (Ctrl+Z)",
+            description=f"Undo (Ctrl+Z){SINCE_LOADED}",
             on_click=steps.undo,
             disabled=steps.param.can_undo.rx.not_(),
             **STEP,
@@ -43,7 +43,7 @@ class DesignBar(Viewer):
         self.redo = pmui.Button(
             label="Redo",
             icon="redo",
-            description="Redo (Ctrl+Y)",
+            description=f"Redo (Ctrl+Y){SINCE_LOADED}",
             on_click=steps.redo,
             disabled=steps.param.can_redo.rx.not_(),
             **STEP,
@@ -62,6 +62,7 @@ class DesignBar(Viewer):
             label="Pin",
             icon="push_pin",
             description="Pin this design",
+            stylesheets=[theme.TOOLTIP_CSS],
             variant="contained",
             size="small",
             on_click=self._pin,
@@ -96,4 +97,7 @@ class DesignBar(Viewer):
         )
 
 
-STEP = {"size": "small", "variant": "text", "margin": 0}
+SINCE_LOADED = ". Loading the page anew keeps all that is on it, and forgets the steps."
+"""What of a session outlives a page: its state, which the browser remembers, and not how it came about."""
+
+STEP = {"size": "small", "variant": "text", "margin": 0, "stylesheets": [theme.TOOLTIP_CSS]}

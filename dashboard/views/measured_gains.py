@@ -15,6 +15,7 @@ from dashboard import theme
 from dashboard.client.exchange import opening
 from dashboard.figures.insertion_gain import MEASURED_MARKERS
 from dashboard.figures.swatches import point_svg
+from dashboard.formats import extent_text
 from trackig_core.levels.band_tables import MOST_BYTES
 from trackig_core.names import LONGEST_TITLE, allowed, is_name
 from trackig_core.study.studies import MOST_MEASURED
@@ -79,7 +80,7 @@ class MeasuredGains(Viewer):
         curve = dataclasses.replace(reading.table, name=_free(name or reading.table.name, kept))
         self.name_box.value = ""
         self._assessment.measured = (*kept, curve)
-        self._tell(f"Taken; {'; '.join(reading.notes)}." if reading.notes else "", "status")
+        self._tell(f"{'; '.join((f'Taken: {extent_text(curve.points)}', *reading.notes))}.", "status")
         return True
 
     def remove(self, curve):
@@ -103,8 +104,8 @@ class MeasuredGains(Viewer):
         self._rows.objects = [self._row(curve, shape) for curve, shape in curves]
 
     def _row(self, curve, shape):
-        bands = f"{len(curve.points)} bands, {curve.points[0][0]:g} to {curve.points[-1][0]:g} Hz"
-        words = f"<p>{point_svg(shape, theme.THEORY)} {html.escape(curve.name)}: {bands}</p>"
+        words = html.escape(f"{curve.name}: {extent_text(curve.points)}")
+        words = f"<p>{point_svg(shape, theme.THEORY)} {words}</p>"
         remove = pmui.Button(
             label="Remove", size="small", variant="text", on_click=lambda _: self.remove(curve)
         )

@@ -321,10 +321,10 @@ LEFT_OUT_LABEL = "Report with what the simplified model leaves out"
 SELECT_WIDTH = 280
 
 LINK_WORDS = (
-    "the address bar holds the design, the pinned designs and the view; "
-    "specification and source travel in a study"
+    "the address bar holds the design, the pinned designs and the view; it leaves out "
+    "specification, source, insertion gain from elsewhere, measured curves, kept answers"
 )
-STUDY_WORDS = "one file that people can read: designs, pinned designs, specification, source"
+STUDY_WORDS = "one file that people can read: what a link holds, and all that it leaves out"
 CURVE_WORDS = "of this design and of the pinned designs that are shown"
 SHEET_WORDS = "one page of A4 on one design: verdict, insertion gain, inputs, natural frequencies"
 PICTURE_WORDS = "for other reports: title, study, definition, legend and date, 2400 points wide"

@@ -13,6 +13,7 @@ from dashboard.client.quantities import Quantities
 from dashboard.fields import (
     CLOSED_GROUPS,
     EVERY_FIELD,
+    FIELDS,
     GROUND,
     GROUPS,
     INPUTS,
@@ -207,7 +208,8 @@ def disabled(inputs):
 
 def _number(field):
     shown = ("name", "label", "labelled", "unit", "low", "high", "step", "logarithmic", "words", "blank")
-    return {"kind": "number", **{name: getattr(field, name) for name in shown}}
+    given = {name: getattr(field, name) for name in shown}
+    return {"kind": "number", "ranged": field.name in FIELDS, **given}
 
 
 def _other(inputs, name):

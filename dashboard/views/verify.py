@@ -145,7 +145,8 @@ class Verify(Tab):
         near, farthest = formats.difference_text(gaps[below].max()), largest(gaps)
         at_5_hz, at_worst = formats.level_text(shear[0]), formats.level_text(shear[worst])
         self.words["peer"].object = (
-            "The rail's point receptance over a support, by the open-source package Rolland 26.08a1: its "
+            f"{PRESET_LABELS.get(self.peer.value, self.peer.value)} as published, whatever the sliders say: "
+            "the rail's point receptance over a support, by the open-source package Rolland 26.08a1. Its "
             f"Euler rail is within {near} of trackig up to 315 Hz, and differs from it most by {farthest}, "
             "since it keeps the rail's rotary inertia. This proves rail and supports by other hands; it does "
             "not prove the beam. A rail that shears (Timoshenko) would change the receptance "
@@ -205,7 +206,7 @@ class Verify(Tab):
         )
         peer = pmui.Paper(
             pmui.Row(
-                caption("Frequency-domain solution and an independent package", ""),
+                caption("Tracks of Table 1 and an independent package", PEER_WORDS),
                 pn.HSpacer(),
                 self.peer,
                 sizing_mode="stretch_width",
@@ -224,6 +225,8 @@ class Verify(Tab):
             margin=(0, 8, 8, 8),
         )
 
+
+PEER_WORDS = "fixed tracks: this comparison does not follow the sliders"
 
 BELOW = 317.0
 """Frequency up to which the independent package is compared in words [Hz]: the 315 Hz band's centre."""

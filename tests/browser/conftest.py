@@ -34,8 +34,9 @@ SOLVED = re.compile("Paper's run|Live run")
 def wait_until_solved(page, timeout=1000 * WAIT):
     """Wait until a page stands still, and shows its design solved."""
     page.wait_for_function("() => window.Bokeh?.documents?.[0]?.is_idle", timeout=timeout)
-    # the status line comes last, after the view in the open tab
-    expect(page.get_by_role("status").filter(has_text=SOLVED).first).to_be_visible(timeout=timeout)
+    # the status line comes last, after the view in the open tab; an assertion would read the whole page aloud
+    # each time that it is not there yet
+    page.get_by_role("status").filter(has_text=SOLVED).first.wait_for(timeout=timeout)
     page.wait_for_function("() => Bokeh.documents[0].is_idle", timeout=timeout)
 
 
@@ -144,8 +145,9 @@ def chromium():
         if os.environ.get("TRACKIG_REQUIRE_BROWSER") == "1":
             pytest.fail(reason)
         pytest.skip(reason)
-    # containers lack the kernel features of the sandbox, and often a large /dev/shm
-    flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
+    # containers lack the kernel features of the sandbox, and often a large /dev/shm;
+    # pages of one process compile the scripts once, which otherwise takes each of them half of its opening
+    flags = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--process-per-site"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=flags)
         yield browser
@@ -210,8 +212,17 @@ def _wait_until_served(url, server, log):
     pytest.fail(f"the server did not start:\n{log.read_text()}")
 
 
+UNTOUCHED = "as it opened"
+"""How tests leave the page that is kept all the time."""
+
+WANDERED = "with any design in any tab"
+"""How tests leave a page of which they change design and tab, and nothing else."""
+
+
 class Reader:
     """A browser with one memory for scripts, which reads and compiles them once for all its pages.
+
+    The process that has compiled them lives as long as any page of the dashboard: one is always kept.
 
     Parameters
     ----------
@@ -286,6 +297,7 @@ class Reader:
 def reader(chromium, address):
     """Return a browser's reader of the dashboard."""
     one = Reader(chromium, address)
+    one.keep(left=UNTOUCHED)
     yield one
     one.close()
 
@@ -310,7 +322,7 @@ def dashboard(open_dashboard):
 @pytest.fixture
 def untouched_dashboard(reader):
     """Open the dashboard once for all tests that leave its design, tab and theme as they found them."""
-    yield reader.keep(left="as it opened")
+    yield reader.keep(left=UNTOUCHED)
     reader.check()
 
 
@@ -320,7 +332,7 @@ def published_dashboard(reader):
 
     It shows what the dashboard opens with, chosen anew after another track.
     """
-    page = reader.keep(left="with any design in any tab")
+    page = reader.keep(left=WANDERED)
     page.get_by_role("tab", name="Explore", exact=True).click()
     presets = page.get_by_role("combobox", name="Track of Table 1", exact=True)
     for name, preset in (

@@ -5,7 +5,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
-from tests.browser.conftest import hover_until_shown, wait_until_at_rest
+from tests.browser.conftest import hover_until_shown, wait_until_at_rest, wait_until_solved
 from tests.browser.test_dashboard import (
     MARKUP,
     OPENING,
@@ -57,6 +57,9 @@ def test_two_designs_are_pinned_renamed_hidden_and_compared(dashboard):
     wait_until_listed(dashboard, "insertion_gain_figure", ["this design", "as in Table 1", "soft", MARKUP])
     wait_until_listed(dashboard, "force_figure", ["all supports", "support under the wheel", "soft", MARKUP])
     np.testing.assert_allclose(column(dashboard, "pins", "pin_1"), stiff, atol=1e-9)
+    # where the pointer rests on a band, names are told as text, too
+    told = dashboard.locator(".bk-Tooltip").get_by_text(MARKUP)  # the legend names it as well
+    hover_until_shown(dashboard, "insertion_gain_figure", 100, told)
 
     tab(dashboard, "Compare")
     expect(dashboard.get_by_role("columnheader", name=MARKUP)).to_be_visible()
@@ -77,13 +80,6 @@ def test_two_designs_are_pinned_renamed_hidden_and_compared(dashboard):
     expect(dashboard.get_by_role("columnheader", name="stiff")).to_have_count(0)
     dashboard.get_by_role("button", name="Use").first.click()
     wait_for_levels(dashboard, soft)
-
-
-def test_names_are_told_as_text_when_the_pointer_rests_on_a_band(dashboard):
-    pin(dashboard, MARKUP)
-    wait_until_listed(dashboard, "insertion_gain_figure", ["this design", MARKUP])
-    told = dashboard.locator(".bk-Tooltip").get_by_text(MARKUP)  # the legend names it too
-    hover_until_shown(dashboard, "insertion_gain_figure", 100, told)
 
 
 def test_a_drag_is_undone_by_one_key_press_and_redone_by_another(dashboard):
@@ -148,19 +144,24 @@ def test_the_drawing_follows_a_drag(published_dashboard):
     expect(drawn(f"{mass} kg")).to_be_visible()
 
 
-def test_the_theme_survives_a_reload(dashboard):
-    dark = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').background_fill_color"
+def test_the_theme_survives_a_reload(published_dashboard):
+    dashboard = published_dashboard
+    paper = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').background_fill_color"
+    light = dashboard.evaluate(paper)
     dashboard.get_by_label("Toggle theme").click()
-    dashboard.wait_for_function(f"() => ({dark})() == '#121212'")
+    dashboard.wait_for_function(f"() => ({paper})() == '#121212'")
     dashboard.reload()
     dashboard.wait_for_function(
-        f"() => window.Bokeh?.documents?.[0]?.get_model_by_name('force_figure') && ({dark})() == '#121212'"
+        f"() => window.Bokeh?.documents?.[0]?.get_model_by_name('force_figure') && ({paper})() == '#121212'"
     )
+    wait_until_solved(dashboard)
+    dashboard.get_by_label("Toggle theme").click()
+    dashboard.wait_for_function(f"light => ({paper})() == light", arg=light)
 
 
 @pytest.mark.parametrize(("width", "least"), [(1024, 14), (1440, 16), (1920, 16)])
 def test_axes_are_legible_in_both_themes(kept_dashboard, width, least):
-    page = kept_dashboard(width, 768, left="with Table 1 pinned")
+    page = kept_dashboard(width, 768)
     sizes = """() => ["insertion_gain_figure", "force_figure"]
         .map(name => Bokeh.documents[0].get_model_by_name(name))
         .flatMap(figure => [...figure.left, ...figure.below])
@@ -187,7 +188,7 @@ def test_figures_and_buttons_have_names(untouched_dashboard):
 
 @pytest.mark.parametrize("width", [1024, 1440])
 def test_no_tab_is_wider_than_the_window(kept_dashboard, width):
-    page = kept_dashboard(width, 768, left="with Table 1 pinned")
+    page = kept_dashboard(width, 768)
     for pinned in (False, True):
         for name in ("Compare", "Track", "Explore"):
             tab(page, name)

@@ -7,7 +7,13 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
-from tests.browser.conftest import hover_until_shown, wait_for_levels
+from tests.browser.conftest import (
+    hover_until_shown,
+    wait_for_levels,
+    wait_until_at_rest,
+    wait_until_drawn,
+    wait_until_solved,
+)
 
 pytestmark = pytest.mark.browser
 
@@ -261,8 +267,11 @@ def test_a_long_run_can_be_stopped_and_leaves_the_last_picture(published_dashboa
     wait_for_levels(dashboard, tig.solve(tig.PRESETS["booted-sleeper"]).insertion_gain)
 
 
-def test_the_pictures_stay_put_whatever_the_status_says(open_dashboard):
-    page = open_dashboard(width=1024, height=768)
+def test_the_pictures_stay_put_whatever_the_status_says(kept_dashboard):
+    page = kept_dashboard(width=1024, height=768)
+    page.get_by_role("tab", name="Explore", exact=True).click()
+    wait_until_drawn(page, "insertion_gain_figure")
+    wait_until_at_rest(page)
     top = """() => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("insertion_gain_figure"))
         .el.getBoundingClientRect().top"""
     before = page.evaluate(top)
@@ -274,6 +283,21 @@ def test_the_pictures_stay_put_whatever_the_status_says(open_dashboard):
     slider(page, "Pad loss factor").press("Home")
     expect(page.get_by_role("button", name="Stop")).to_be_visible()
     assert page.evaluate(top) == before
+    page.get_by_role("button", name="Back to Table 1").click()
+
+
+@pytest.mark.usefixtures("open_dashboard")
+def test_all_that_a_link_gets_wrong_is_told_at_once_above_what_is_looked_at(reader):
+    page = reader.open_at_once(1024, 768, "?pad_stiffness=-5&block_mass=1e9&tab=none&nothing=1")
+    told = page.locator(".MuiAlert-root")
+    expect(told).to_contain_text("Pad stiffness is -5 kN/mm, and its box takes 10 to 2000 kN/mm")
+    expect(told).to_have_count(1)
+    figure = page.get_by_text("Insertion gain", exact=True).first
+    expect(figure).to_be_visible()
+    toast = told.bounding_box()
+    assert toast["y"] + toast["height"] < figure.bounding_box()["y"]
+    wait_until_solved(page)
+    assert (shown(page, "Pad stiffness, kN/mm"), shown(page, "Block mass, kg")) == (100, 45)
 
 
 def test_sessions_do_not_disturb_each_other(published_dashboard, open_dashboard):
@@ -318,12 +342,16 @@ def test_the_dark_theme_reaches_figures_and_text(untouched_dashboard):
     dashboard.wait_for_function(f"light => ({background})() == light", arg=light)
 
 
-def test_the_choice_of_sum_and_reference_is_drawn_and_named(dashboard):
+def test_the_choice_of_sum_and_reference_is_drawn_and_named(published_dashboard):
+    dashboard = published_dashboard
     choose(dashboard, "Over the supports", "Coherent force")
     choose(dashboard, "Against", "Rigid track")
     wait_for_levels(dashboard, tig.solve(OPENING, reference="rigid", summation="coherent").insertion_gain)
     label = "() => Bokeh.documents[0].get_model_by_name('insertion_gain_figure').left[0].axis_label"
     assert dashboard.evaluate(label) == "IG, dB (coherent / rigid)"
+    choose(dashboard, "Over the supports", "Summed energy (paper)")
+    choose(dashboard, "Against", "Straight line (paper)")
+    wait_for_levels(dashboard, tig.solve(OPENING).insertion_gain)
 
 
 def test_the_run_is_held_against_theory_while_the_tab_is_open(published_dashboard):

@@ -106,8 +106,12 @@ def test_all_parts_appear_when_the_tab_is_opened_by_click(limited, width, height
     )
     assert np.abs(drawn).max() > 0.5
     wait_until_at_rest(page)
+    expect(page.get_by_text("then press “How sure?”")).to_be_visible()
     for name in ("change_figure", "tornado_figure", "percentile_figure"):
+        if name == "percentile_figure":
+            page.get_by_role("button", name="How sure?", exact=True).click()
         wait_until_drawn(page, name)
+        wait_until_at_rest(page)
         size = page.evaluate(
             """name => {
                 const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name))
@@ -197,6 +201,8 @@ def test_numbers_of_the_ground_are_offered_and_answered(open_dashboard):
     page.get_by_role("checkbox", name="A change for each field").click()
     share = page.get_by_label("Ground stiffness, ± %").first
     expect(share).to_have_value("10")
+    # boxes that come push others aside and are drawn anew, which loses what is typed meanwhile
+    wait_until_at_rest(page)
     share.fill("20")
     share.press("Enter")
     design = OPENING.replace(ground=tig.GROUNDS["rock"])

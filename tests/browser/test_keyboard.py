@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from dashboard.views.learn import EXPLAINING
-from tests.browser.conftest import wait_until_at_rest, wait_until_drawn
+from tests.browser.conftest import WANDERED, wait_until_at_rest, wait_until_drawn, wait_until_solved
 from tests.browser.test_decide import LIMITS
 from tests.browser.test_workshop import open_tab
 
@@ -92,7 +92,7 @@ def go(page, name, role=None, key="Tab"):
 
 def answer(page, words):
     """Wait for an answer that can be read aloud."""
-    expect(page.get_by_role("status").filter(has_text=re.compile(words)).first).to_be_visible()
+    page.get_by_role("status").filter(has_text=re.compile(words)).first.wait_for()
 
 
 def go_to_tab(page, name, key):
@@ -100,6 +100,11 @@ def go_to_tab(page, name, key):
     go(page, "^(Explore|Specification|Decide|Map)$", "tab", key)
     go(page, f"^{name}$", "tab", "ArrowRight")
     page.keyboard.press("Enter")
+
+
+def is_open(summary):
+    """Return whether a group is unfolded, by its summary."""
+    return summary.locator("xpath=..").get_attribute("open") is not None
 
 
 def test_all_four_questions_are_asked_by_keys_alone(open_dashboard):
@@ -127,7 +132,7 @@ def test_all_four_questions_are_asked_by_keys_alone(open_dashboard):
     go(page, "^How sure.$", "button")
     page.keyboard.press("Enter")
     answer(page, "compl.*of production|complies")
-    go(page, "^Over the tolerances$", "button")
+    go(page, "^Which tolerance.$", "button")
     page.keyboard.press("Enter")
     answer(page, "of the scatter of the governing margin is due to")
 
@@ -168,8 +173,8 @@ def test_all_four_questions_are_asked_by_keys_alone(open_dashboard):
     assert Told(page).nameless() == []
 
 
-def test_tools_of_a_figure_are_reached_by_keys(open_dashboard):
-    page = open_dashboard()
+def test_tools_of_a_figure_are_reached_by_keys(untouched_dashboard):
+    page = untouched_dashboard
     wait_until_drawn(page, "insertion_gain_figure")
     go(page, "^Insertion gain per", "group")
     go(page, "^Save$", "button")
@@ -180,12 +185,54 @@ def test_tools_of_a_figure_are_reached_by_keys(open_dashboard):
     assert saved.value.suggested_filename.startswith("picture")
 
 
-def test_whatever_takes_the_focus_has_a_name(open_dashboard):
-    page = open_dashboard()
+def test_the_status_line_keeps_the_focus_when_it_says_something_new(dashboard):
+    mass = dashboard.get_by_role("textbox", name="Block mass, kg: type a number")
+    mass.fill("103.7")
+    mass.press("Enter")
+    status = dashboard.get_by_role("status", name="Status")
+    expect(status).to_contain_text("Paper's run, solved in")
+    status.focus()
+    dashboard.keyboard.press("Control+z")
+    expect(mass).to_have_value("45")
+    expect(status).to_contain_text("solved before")
+    expect(status).to_be_focused()
+
+
+def test_a_reload_keeps_what_is_there_and_says_that_it_forgets_the_steps(dashboard):
+    undo = dashboard.get_by_role(
+        "button", name="Undo (Ctrl+Z). Loading the page anew keeps all that is on it"
+    )
+    mass = dashboard.get_by_role("textbox", name="Block mass, kg: type a number")
+    mass.fill("107")
+    mass.press("Enter")
+    expect(undo).to_be_enabled()
+    open_tab(dashboard, "Specification")
+    dashboard.get_by_role("textbox", name="Paste a table").fill("63\t-4")
+    dashboard.get_by_role("button", name="Take what is pasted").click()
+    limit = dashboard.get_by_role("textbox", name="Limit, dB, 63 Hz")
+    expect(limit).to_have_value("-4")
+    dashboard.wait_for_function(
+        """() => {
+            const {study, query} = JSON.parse(sessionStorage.getItem("trackig"))
+            return study.includes("[specification]") && query.includes("block_mass=107&") &&
+                query.includes("tab=specification")
+        }"""
+    )
+    dashboard.reload()
+    wait_until_solved(dashboard)
+    expect(mass).to_have_value("107")
+    expect(limit).to_have_value("-4")
+    expect(undo).to_be_disabled()
+
+
+def test_whatever_takes_the_focus_has_a_name(kept_dashboard):
+    page = kept_dashboard(left=WANDERED)
     told = Told(page)
-    for group in page.locator("summary").all():
-        if group.locator("xpath=..").get_attribute("open") is None:
-            group.click()
+    sidebar = page.get_by_role("navigation")
+    folded = [each for each in sidebar.locator("summary").all() if not is_open(each)]
+    assert folded
+    for group in folded:
+        group.click()
     for tab, last in LAST_PARTS.items():
         open_tab(page, tab)
         expect(page.get_by_role("heading", name=last, exact=True)).to_be_visible()
@@ -198,3 +245,5 @@ def test_whatever_takes_the_focus_has_a_name(open_dashboard):
         expect(page.locator("h2:visible").first).to_be_visible()
         wait_until_at_rest(page)
         assert told.nameless() == [], subject.title
+    for group in folded:
+        group.click()

@@ -10,7 +10,7 @@ import trackig_core as tig
 from dashboard import assets
 from dashboard.figures import motion as figures_motion
 from dashboard.teaching.lessons import load_lessons, reveal
-from tests.browser.conftest import count_sent, resting_place, wait_until_at_rest, wait_until_drawn
+from tests.browser.conftest import WANDERED, count_sent, resting_place, wait_until_at_rest, wait_until_drawn
 from tests.browser.test_dashboard import box, choose, column, wait_for_levels
 
 pytestmark = pytest.mark.browser
@@ -58,7 +58,7 @@ def wait_for_film(page, motion):
 
 @pytest.mark.parametrize("frame", [0, 57, 300, 614])
 def test_the_browser_draws_the_film_s_own_frames(kept_dashboard, frame):
-    dashboard = kept_dashboard()
+    dashboard = kept_dashboard(left=WANDERED)
     choose(dashboard, "Track of Table 1", "Booted block, low mass")
     look_at(dashboard, "Motion")
     motion = tig.film(OPENING)
@@ -82,9 +82,11 @@ NEXT_FRAMES = """count => new Promise(done => {
 """Lets the browser paint some frames."""
 
 
-def test_the_film_plays_in_the_browser_alone_and_pauses(dashboard):
+def test_the_film_plays_in_the_browser_alone_and_pauses(published_dashboard):
+    dashboard = published_dashboard
     look_at(dashboard, "Motion")
     wait_for_film(dashboard, tig.film(OPENING))
+    set_model(dashboard, "film_slider", "value", 0)
     # the address bar is the last to follow
     dashboard.wait_for_function("() => new URLSearchParams(location.search).get('tab') === 'learn'")
     count_sent(dashboard)
@@ -101,7 +103,8 @@ def test_the_film_plays_in_the_browser_alone_and_pauses(dashboard):
     assert model(dashboard, "film_slider", "value") == stands
 
 
-def test_the_film_is_that_of_the_design_when_it_rests(dashboard):
+def test_the_film_is_that_of_the_design_when_it_rests(published_dashboard):
+    dashboard = published_dashboard
     look_at(dashboard, "Motion")
     model(dashboard, "film", "name")
     choose(dashboard, "Track of Table 1", "Slab track")
@@ -109,7 +112,8 @@ def test_the_film_is_that_of_the_design_when_it_rests(dashboard):
     assert np.isnan(column(dashboard, "film_supports", "block")).all()
 
 
-def test_a_click_or_a_drag_on_the_curve_chooses_the_frequency_of_the_shape(dashboard):
+def test_a_click_or_a_drag_on_the_curve_chooses_the_frequency_of_the_shape(published_dashboard):
+    dashboard = published_dashboard
     look_at(dashboard, "Motion")
     model(dashboard, "pick_bands", "name")
     figure = """() => Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name("pick_bands_figure"))"""
@@ -154,7 +158,7 @@ def first_words(markdown):
 
 @pytest.mark.parametrize("number", range(len(LESSONS)), ids=[lesson.file for lesson in LESSONS])
 def test_a_lesson_runs_and_reveals_what_the_solver_finds(kept_dashboard, number):
-    dashboard = kept_dashboard()
+    dashboard = kept_dashboard(left=WANDERED)
     lesson = LESSONS[number]
     before, after = lesson.designs()
     revealed = reveal(lesson)
@@ -182,8 +186,11 @@ def test_a_lesson_runs_and_reveals_what_the_solver_finds(kept_dashboard, number)
             expect(control).to_be_enabled()
 
 
-def test_lessons_leave_the_sliders_to_the_hand(dashboard):
+def test_lessons_leave_the_sliders_to_the_hand(kept_dashboard):
+    dashboard = kept_dashboard(left=WANDERED)
     look_at(dashboard, "Lessons")
+    choose(dashboard, "Lesson", f"1. {LESSONS[0].title}")
+    expect(dashboard.get_by_text(LESSONS[0].question)).to_be_visible()
     dashboard.get_by_role("button", name="Move the slider for me").click()
     expect(box(dashboard, "Boot stiffness, kN/mm")).to_have_value("14")
     field = box(dashboard, "Boot stiffness, kN/mm")
@@ -228,8 +235,9 @@ def test_the_resonances_point_follows_the_slider(dashboard):
     )
 
 
-def test_the_method_s_equations_are_shown_and_nothing_is_fetched(dashboard):
+def test_the_method_s_equations_are_shown_and_nothing_is_fetched(kept_dashboard):
     """What is requested from elsewhere fails every test that opens a page."""
+    dashboard = kept_dashboard(left=WANDERED)
     dashboard.get_by_role("tab", name="Method").click()
     expect(dashboard.get_by_role("heading", name="Glossary")).to_be_attached()
     expect(dashboard.locator("math").first).to_be_visible()

@@ -9,6 +9,7 @@ from playwright.sync_api import expect
 
 import trackig_core as tig
 from dashboard.client.quantities import SCRIPT
+from dashboard.fields import FIELDS
 from dashboard.session.inputs import DesignInputs
 from dashboard.session.results import Outcome
 from dashboard.session.shelf import Shelf
@@ -223,6 +224,41 @@ def test_where_a_design_complies_is_drawn_and_its_edges_can_be_set(blank):
     expect(edges).to_have_count(0)
 
 
+def test_nothing_moves_when_it_comes_out_where_a_design_complies(blank):
+    panel = Panel(blank)
+    blank.get_by_text("Advanced", exact=True).click()
+    expect(slider(blank, "Contact stiffness, kN/mm")).to_be_visible()
+    parts = blank.locator("input:visible, select:visible, summary:visible")
+    before = [each.bounding_box() for each in parts.all()]
+    numbers = {name: (field.low, field.high) for name, field in FIELDS.items()}
+    panel.set("feasible", {name: [[low, (low * high) ** 0.5]] for name, (low, high) in numbers.items()})
+    edges = blank.locator(".edge:visible")
+    expect(edges).to_have_count(len(FIELDS))
+    assert [each.bounding_box() for each in parts.all()] == before
+    covered = blank.evaluate(
+        """() => [...document.querySelector("div").shadowRoot.querySelectorAll(".edge")].map(edge => {
+            const {bottom} = edge.getBoundingClientRect()
+            return bottom - edge.closest(".quantity").getBoundingClientRect().bottom
+        })"""
+    )
+    assert max(covered) <= 0, "no edge stands on the number below"
+
+
+def test_what_the_catalogue_offers_is_said_in_full(blank):
+    Panel(blank, catalogue={"pad": ["Soft"]})
+    pick = blank.get_by_role("combobox", name="Rail pad: from the catalogue")
+    room = pick.evaluate(
+        """e => {
+            const pen = document.createElement("canvas").getContext("2d")
+            const {font, paddingLeft, paddingRight} = getComputedStyle(e)
+            pen.font = font
+            const words = pen.measureText(e.selectedOptions[0].textContent).width
+            return e.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight) - words
+        }"""
+    )
+    assert room >= 0
+
+
 def test_a_chip_stands_for_a_slider(blank):
     panel = Panel(blank, chips={"boot_stiffness": "measured at 4 frequencies"})
     expect(slider(blank, BOOT)).to_have_count(0)
@@ -260,7 +296,8 @@ def test_all_can_be_reached_and_is_named(blank):
     expect(blank.get_by_text("the softer, the lower it isolates")).to_be_visible()
 
 
-def test_a_drag_sends_no_more_than_is_answered(dashboard):
+def test_a_drag_sends_no_more_than_is_answered(published_dashboard):
+    dashboard = published_dashboard
     dashboard.evaluate(
         """() => {
             window.sets = 0

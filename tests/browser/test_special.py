@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 import trackig_core as tig
+from tests.browser.conftest import wait_until_at_rest
 from tests.browser.test_dashboard import box, shown, slider, wait_for_levels
 from tests.browser.test_workshop import open_file, open_tab
 
@@ -16,6 +17,12 @@ PAD = (DATA / "measured_stiffness" / "pad_1_to_30_hz.csv").read_bytes()
 FINITE_ELEMENT = (DATA / "measured_stiffness" / "finite_element_pad.csv").read_bytes()
 CATALOGUE = (DATA / "company_catalogue.toml").read_bytes()
 OPENING = tig.PRESETS["booted-block-low-mass"]
+
+
+@pytest.fixture
+def dashboard(kept_dashboard):
+    """Return a page that the tests of this module share, as the one before left it."""
+    return kept_dashboard(left="with what no slider shows")
 
 
 def chip(page, label):
@@ -46,6 +53,7 @@ def test_a_table_with_the_wrong_unit_is_asked_about_before_it_can_be_used(dashbo
     expect(dashboard.get_by_text("are the figures in N/m?")).to_be_visible()
     use = dashboard.get_by_role("button", name="Use for the pad")
     expect(use).to_be_disabled()
+    wait_until_at_rest(dashboard)
     dashboard.get_by_role("combobox", name="Unit of stiffness").select_option("N/m")
     expect(dashboard.get_by_text("Stiffness in N/m, as chosen.")).to_be_visible()
     expect(use).to_be_enabled()
@@ -56,7 +64,8 @@ def test_a_table_with_the_wrong_unit_is_asked_about_before_it_can_be_used(dashbo
     expect(dashboard.get_by_text("Bands up to 160 Hz rest on extrapolation (")).to_be_visible()
 
 
-def test_a_loss_factor_beyond_the_slider_is_typed_solved_and_its_fit_told(dashboard):
+def test_a_loss_factor_beyond_the_slider_is_typed_solved_and_its_fit_told(published_dashboard):
+    dashboard = published_dashboard
     box(dashboard, "Boot loss factor").fill("2.5")
     box(dashboard, "Boot loss factor").press("Enter")
     expect(dashboard.get_by_text("give 0.01 to 2", exact=True)).to_be_visible()

@@ -225,15 +225,16 @@ def test_the_link_is_copied(dashboard):
     assert dashboard.evaluate("() => history.length") == 2, "changes do not fill the history"
 
 
-def test_a_hostile_link_opens_what_it_can_and_tells_the_rest(open_dashboard):
+@pytest.mark.usefixtures("open_dashboard")
+def test_a_hostile_link_opens_what_it_can_and_tells_the_rest(reader):
     query = (
         f"?pad_stiffness={'9' * 5000}&boot_stiffness=1e999&block_mass=77&rail=../../etc/passwd"
         f"&tab={MARKUP}&{MARKUP}=1&pin={MARKUP}&theme={MARKUP}"
     )
-    page = open_dashboard(query=query.replace("<", "%3C").replace(">", "%3E").replace(" ", "%20"))
+    page = reader.open_at_once(query=query.replace("<", "%3C").replace(">", "%3E").replace(" ", "%20"))
+    expect(page.get_by_text("Pad stiffness is no number; it stays at 100 kN/mm.")).to_be_visible()
     opening = tig.PRESETS["booted-block-low-mass"]
     wait_for_levels(page, tig.solve(opening.replace(block_mass=77)).insertion_gain)
-    expect(page.get_by_text("Boot stiffness is too large a number; 28 was taken")).to_be_visible()
     wait_for_link(page, boot_stiffness="28", pad_stiffness="100", tab="explore")
     assert "passwd" not in page.url
 

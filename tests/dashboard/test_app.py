@@ -139,6 +139,14 @@ def test_a_page_that_cannot_be_made_says_so(monkeypatch, caplog):
     assert "no <b>fonts</b>" in caplog.text
 
 
+def test_all_problems_of_a_link_are_one_message(monkeypatch):
+    told = []
+    monkeypatch.setattr(app, "notify", lambda *message: told.append(message))
+    assert [*app.notify_of_problems(())] == told == []
+    assert [*app.notify_of_problems(("One thing.", "Another."))] == [None]
+    assert told == [("warning", "One thing. Another.")]
+
+
 def test_an_escaped_exception_is_logged_and_told_without_its_text(caplog):
     pn.extension(notifications=True)
     app.report_error(ValueError("<script>alert(1)</script>"))

@@ -398,7 +398,7 @@ def test_check_takes_a_specification_from_a_file(save, tmp_path, capsys):
     table.write_text("frequency_hz,ig_max_db\n8,x\n")
     capsys.readouterr()
     assert main(["check", save(), "--fidelity", "exact", "--specification", str(table)]) == 2
-    assert f"{table}: line 2, column 2: ig_max_db = 'x'" in capsys.readouterr().err
+    assert f"{table}: line 2, column 2: limit 'x'" in capsys.readouterr().err
 
 
 def test_a_report_is_written(save, tmp_path, capsys):

@@ -119,6 +119,21 @@ def test_levels_in_tables_have_a_sign_unless_zero(level, text):
 
 
 @pytest.mark.parametrize(
+    ("difference", "text"), [(0.0, "0.0"), (-0.004, "0.0"), (0.005001, "+0.01"), (-1.2, "−1.20")]
+)
+def test_no_difference_has_no_sign_with_more_decimals_either(difference, text):
+    assert formats.signed_text(difference, 2) == text
+
+
+@pytest.mark.parametrize(
+    ("points", "text"),
+    [([(63.0, -3.0)], "1 band, 63 Hz"), ([(31.5, 1.0), (40.0, 2.0)], "2 bands, 31.5 to 40 Hz")],
+)
+def test_how_far_a_table_goes_is_told_in_bands(points, text):
+    assert formats.extent_text(points) == text
+
+
+@pytest.mark.parametrize(
     ("name", "text"),
     [("Softer boot", "Softer boot"), ("a\x00b\nc", "a b c"), ("x" * 13, "x" * 11 + "…"), ("", "")],
 )

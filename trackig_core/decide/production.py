@@ -148,7 +148,7 @@ def tolerance(
         Greatest insertion gain per band [dB].
     tolerances : dict of str to float or Tolerance
         By field, or by path of a number of suspension or ground such as ``"ground.stiffness"``: a share such
-        as 0.1 for anything within +-10 %, or a :class:`Uniform` or :class:`Normal`.
+        as 0.1 for any value within +-10 %, or a :class:`Uniform` or :class:`Normal`.
     production : dict of str to sequence, optional
         Measured values by field [unit of the field], row by row of the same specimen.
     samples : int

@@ -208,7 +208,7 @@ def make_factors(
     design : TrackDesign
         The design as it is stated.
     tolerances : dict of str to float or Tolerance
-        By field, or by path of a number of suspension or ground: a share such as 0.1 for anything within
+        By field, or by path of a number of suspension or ground: a share such as 0.1 for any value within
         +-10 %, or a :class:`Uniform` or :class:`Normal`.
     production : dict of str to sequence, optional
         Measured values by field [unit of the field], row by row of the same specimen, as a pandas.DataFrame

@@ -80,6 +80,10 @@ class Quantity:
         Header of its column in a CSV file.
     words : str
         What it is, for people.
+    name : str
+        The same in one word, which may stand above a column.
+    example : float
+        One of its levels [dB].
     low, high : float
         Least and greatest level [dB].
     error : type
@@ -92,6 +96,8 @@ class Quantity:
 
     column: str
     words: str
+    name: str
+    example: float
     low: float
     high: float
     error: type[BandTableError]
@@ -102,6 +108,11 @@ class Quantity:
     def allowed(self) -> str:
         """What may be given for a level."""
         return f"a number from {self.low:g} to {self.high:g} dB"
+
+    @property
+    def row(self) -> str:
+        """What a line of a table may be, with an example."""
+        return f"a line per band, frequency in Hz and {self.name} in dB, such as 63 {self.example:g}"
 
     def read(self, text: str) -> float | None:
         """Return the level that was typed for one band.
@@ -281,7 +292,7 @@ _Place = tuple[int, int, int]
 
 def _rows(points: Iterable[Iterable[Any]], quantity: Quantity) -> list[tuple[_Place, Any, Any]]:
     """Return given rows as (place, frequency, level)."""
-    columns = f"{FREQUENCY_COLUMN}, {quantity.column}"
+    columns = f"frequency, {quantity.name}"
     try:
         rows = [tuple(row) for row in points]
     except TypeError:
@@ -303,7 +314,7 @@ def _checked(
             raise quantity.error(_unknown_band(frequency), line, first, counted)
         verified = _number(level)
         if verified is None or not quantity.low <= verified <= quantity.high:
-            message = f"{quantity.column} = {brief(level)}: give {quantity.allowed}"
+            message = f"{quantity.name} {brief(level)}: give {quantity.allowed}"
             raise quantity.error(message, line, second, counted)
         if band in found:
             message = (
@@ -313,7 +324,7 @@ def _checked(
             raise quantity.error(message, line, first, counted)
         found[band] = line, verified
     if not found:
-        raise quantity.error(f"no band has a value: give at least one row of {FREQUENCY_COLUMN} and level")
+        raise quantity.error(f"no band has a value: give {quantity.row}")
     return tuple((NOMINAL[band], found[band][1]) for band in sorted(found))
 
 
@@ -340,7 +351,7 @@ def _band(frequency: object) -> int | None:
 
 
 def _unknown_band(frequency: object) -> str:
-    shown = f"{FREQUENCY_COLUMN} = {brief(frequency)}"
+    shown = f"frequency {brief(frequency)}"
     number = _number(frequency)
     if number is None or not NOMINAL[0] <= number <= NOMINAL[-1]:
         bands = f"{BAND_LABELS[0]} to {BAND_LABELS[-1]} Hz"
@@ -370,7 +381,7 @@ class _Found:
 def _read(data: str | bytes, quantity: Quantity) -> _Found:
     """Return what a table holds."""
     # no level has thousands of decibels, so that a comma is decimal unless the table shows otherwise
-    table = read_table(data, is_axis=_is_band_of_any_range, undecided=",")
+    table = _paired(read_table(data, is_axis=_is_band_of_any_range, undecided=","))
     frequencies = _frequencies(table, quantity)
     levels = _levels(table, frequencies, quantity)
     notes = [f"{each.words} is not read" for each in table.columns if each not in (frequencies, levels)]
@@ -407,10 +418,37 @@ def _read(data: str | bytes, quantity: Quantity) -> _Found:
     return _Found(points, (*table.notes, *notes), _says_loss(levels, quantity), tuple(set_aside))
 
 
+def _paired(table: Table) -> Table:
+    """Return a table of one line of frequencies and levels in turn as two columns, any other as it is.
+
+    It is such a line only where every other number, and not each of those between, is a band higher than the
+    one before.
+    """
+    columns = table.columns
+    if len(columns) < 4 or len(columns) % 2 or any(each.header or len(each.cells) != 1 for each in columns):
+        return table
+    cells = [each.cells[0] for each in columns]
+    frequencies, levels = cells[::2], cells[1::2]
+    in_turn = _are_ascending_bands(frequencies) and not _are_ascending_bands(levels)
+    if not in_turn or any(each.value is None for each in levels):
+        return table
+    pair = tuple(Column("", None, each[0], tuple(each)) for each in (frequencies, levels))
+    return Table(pair, (*table.notes, "the line is read as frequency and level in turn"))
+
+
+def _are_ascending_bands(cells: Sequence[Cell]) -> bool:
+    """Return whether cells hold the frequencies of bands, each higher than the one before."""
+    if any(each.unit is not None and each.unit.name != "Hz" for each in cells):
+        return False
+    bands = [_band(each.value) for each in cells if not each.bound]
+    known = [each for each in bands if each is not None]
+    return len(known) == len(cells) and all(low < high for low, high in pairwise(known))
+
+
 def _frequencies(table: Table, quantity: Quantity) -> Column:
     """Return the column that holds the frequencies."""
     if len(table.columns) < 2:
-        message = f"no band has a value: give at least one row of {FREQUENCY_COLUMN} and level"
+        message = f"no band has a value: give {quantity.row}"
         raise quantity.error(message)
     named = [each for each in table.columns if each.is_frequency]
     several = [each for each in named if _are_bands(each)] or named
@@ -436,7 +474,7 @@ def _levels(table: Table, frequencies: Column, quantity: Quantity) -> Column:
     beside = [each for each in table.columns if each is not frequencies]
     others = [each for each in _uncounted(table.columns) if each is not frequencies] or beside
     if not others:
-        message = f"no column holds {quantity.column}: add one beside the frequencies"
+        message = f"no column holds the {quantity.name}: add one beside the frequencies"
         raise quantity.error(message, frequencies.head.line, frequencies.head.column)
     named = [each for each in others if each.header.casefold() == quantity.column]
     able = [each for each in others if each.unit is None or each.unit.quantity == "level"]
@@ -446,10 +484,15 @@ def _levels(table: Table, frequencies: Column, quantity: Quantity) -> Column:
     for choice in (named, in_decibels, numeric, hinted, able, others):
         if len(choice) == 1:
             return _of_quantity(choice[0], quantity)
+    if len(table.columns[0].cells) == 1 and not any(each.header for each in table.columns):
+        message = f"{len(table.columns)} values in one line: give {quantity.row}"
+        raise quantity.error(message, frequencies.head.line)
     several = hinted or numeric or able or others
     words = " and ".join(each.words for each in several[:2])
     commas = "" if several[0].header else "; if numbers have decimal commas, separate them by semicolons"
-    message = f"{words} may both hold {quantity.column}: keep one, or call it {quantity.column}{commas}"
+    message = (
+        f"{words} may both hold the {quantity.name}: keep one, or write {quantity.name} above it{commas}"
+    )
     raise quantity.error(message, several[1].head.line, several[1].head.column)
 
 

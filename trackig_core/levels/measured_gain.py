@@ -41,6 +41,8 @@ class MeasuredGain(BandTable):
     quantity = Quantity(
         column="ig_db",
         words="Insertion gain, measured or from elsewhere",
+        name="gain",
+        example=-3.0,
         low=-150.0,
         high=150.0,
         error=MeasuredGainError,

@@ -114,6 +114,8 @@ class SourceSpectrum(BandTable):
     quantity = Quantity(
         column="level_db",
         words="Level on the reference track",
+        name="level",
+        example=60.0,
         low=-200.0,
         high=300.0,
         error=SourceError,

@@ -88,6 +88,8 @@ class Specification(BandTable):
     quantity = Quantity(
         column="ig_max_db",
         words="Greatest insertion gain allowed",
+        name="limit",
+        example=-3.0,
         low=-100.0,
         high=100.0,
         error=SpecificationError,

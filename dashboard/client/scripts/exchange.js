@@ -176,6 +176,18 @@ function onDrawn(type, act) {
   for (const view of Bokeh.index.query((each) => each instanceof default_view)) act(view)
 }
 
+// Words that change are drawn anew: what of them has the keyboard's focus, such as the status line, keeps it.
+function keepFocus() {
+  const {prototype} = Bokeh.Models.get("panel.models.markup.HTML").prototype.default_view
+  const {set_html} = prototype
+  prototype.set_html = function (...rest) {
+    const parts = () => [...(this.container?.querySelectorAll("[tabindex]") ?? [])]
+    const focused = parts().indexOf(this.shadow_el.activeElement)
+    set_html.apply(this, rest)
+    parts()[focused]?.focus({preventScroll: true})
+  }
+}
+
 // Bokeh would take up a session where it was, but loses the arrays in it, and would fill this page with that of a
 // restarted server, made for the address as it was at first. Loaded anew, the page comes back as it is now.
 async function comeBack() {
@@ -212,6 +224,7 @@ export function render({model, view}) {
   }
   onDrawn("Canvas", (canvas) => nameFigure(model, canvas))
   onDrawn("Slider", nameSlider)
+  keepFocus()
   resume(model)
   recall(model)
   return document.createElement("span")

@@ -161,7 +161,8 @@ class Quantity {
     this.fill = element("div", {className: "fill"})
     this.mark = element("div", {className: "mark", hidden: true})
     this.stretch = element("div", {className: "stretches", hidden: true})
-    this.edges = element("div", {className: "edges", hidden: true})
+    // edges come while a hand is at the sliders: their room is there before, so that no slider moves under it
+    this.edges = element("div", {className: "edges", hidden: !field.ranged})
     this.track = element(
       "div", {className: "track"},
       element("div", {className: "scale"}, element("div", {className: "rail"}), this.fill, this.stretch, this.mark),
@@ -306,7 +307,7 @@ class Quantity {
     this.mark.hidden = this.preset === undefined
     if (this.preset !== undefined) this.mark.style.left = `${100 * this.scale.share(this.preset)}%`
     if (this.value !== null) this.fill.style.width = `${100 * this.scale.share(this.value)}%`
-    this.stretch.hidden = this.edges.hidden = this.stretches === undefined
+    this.stretch.hidden = this.stretches === undefined
     this.stretch.replaceChildren(...(this.stretches ?? []).map(([low, high]) => this.stretchOf(low, high)))
     this.drawEdges()
   }
@@ -431,7 +432,7 @@ class Pick {
       })
       return element("optgroup", {label: of}, ...names)
     })
-    const head = element("option", {disabled: true, selected: true}, "catalogue …")
+    const head = element("option", {disabled: true, selected: true}, "from catalogue")
     this.root.replaceChildren(head, ...options.filter((each) => each.children.length > 0))
     this.root.hidden = this.root.children.length === 1
     this.root.selectedIndex = 0

@@ -43,6 +43,8 @@ class Asked:
 
     kind = ""
     hint = ""
+    before = ""
+    """What to do for an answer, said where it will be."""
 
     def __init__(self, snapshot, exchange, inquiry=None):
         self.snapshot, self._exchange = snapshot, exchange
@@ -50,7 +52,10 @@ class Asked:
         self.inquiry = Inquiry() if inquiry is None else inquiry
         self.runner = InquiryRunner(self.inquiry) if inquiry is None else inquiry.runner
         self.sentence = pn.pane.HTML(
-            "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(2, 12, 2, 12)
+            _paragraph(self.before, "note"),
+            stylesheets=[theme.ANSWER_CSS],
+            sizing_mode="stretch_width",
+            margin=(2, 12, 2, 12),
         )
         self.progress = pmui.LinearProgress(
             value=0, variant="determinate", width=160, visible=False, margin=(16, 0, 0, 12)
@@ -112,7 +117,7 @@ class Asked:
         self._say(self.words(result), "fine", " ".join(filter(None, hints)))
 
     def _say(self, words, kind="note", hint=""):
-        self.sentence.object = said(words, kind) + (hint and f'<p class="note">{html.escape(hint)}</p>')
+        self.sentence.object = said(words, kind) + _paragraph(hint, "note")
 
     def words(self, result):
         """Return the answer in one sentence."""
@@ -166,6 +171,11 @@ def what_is_missing(assessment):
     if specification is None or not specification.question:
         return NO_SPECIFICATION
     return f"Answer first, in the tab Specification: {specification.question}"
+
+
+def _paragraph(words, kind):
+    """Return words of a kind as a paragraph, if there are any (HTML)."""
+    return words and f'<p class="{kind}">{html.escape(words)}</p>'
 
 
 def said(words, kind):

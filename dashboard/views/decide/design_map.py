@@ -23,6 +23,7 @@ class Map(Asked):
     """A figure over two fields, with the edge of compliance; a tap takes the design."""
 
     kind = "map"
+    before = "Choose two numbers and a figure, then press “Draw the map”: it shows where designs comply."
     hint = (
         "Tap a design to take it to the sliders, or move to it with the arrow keys and press Enter; "
         "Ctrl+Z brings the old one back."

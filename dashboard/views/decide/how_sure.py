@@ -30,6 +30,10 @@ class HowSure(Asked):
     """How sure the design is to comply when production scatters."""
 
     kind = "tolerance"
+    before = (
+        "Give the tolerances of your products, then press “How sure?”: it says how much of production "
+        "complies and draws its insertion gain. It takes a specification."
+    )
 
     def __init__(self, snapshot, exchange, production):
         super().__init__(snapshot, exchange)
@@ -37,8 +41,11 @@ class HowSure(Asked):
         self.tolerances = ShareBoxes(USUAL_TOLERANCES, 0.0, exchange)
         self.shape = choice(
             label="Production",
-            options={"anything within": "uniform", "bell curve, ± two deviations": "normal"},
-            width=250,
+            options={
+                "even within the tolerances": "uniform",
+                "bell curve, tolerance = 2 std. dev.": "normal",
+            },
+            width=290,
         )
         self.samples = choice(
             label="Samples",
@@ -48,6 +55,8 @@ class HowSure(Asked):
         )
         self.seed = seed_box()
         self.percentiles = PercentileFigure()
+        self._pane = bokeh_pane(self.percentiles.model)
+        self.place = pn.Column(sizing_mode="stretch_width", margin=0)
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
         self.button.label = "How sure?"
         self.in_explore = pmui.Checkbox(
@@ -106,10 +115,11 @@ class HowSure(Asked):
     def settings(self):
         """Return what is asked about the current design."""
         design, kind = self.assessment.current.design, self.shape.value
-        half = 1.0 if kind == "uniform" else 0.5
+        # of a bell curve a tolerance is two standard deviations, and it is cut off at three
+        half, reach = (1.0, 1.0) if kind == "uniform" else (0.5, 1.5)
         given = {
             name: {kind: half * share}
-            for name, share in self.tolerances.shares(design).items()
+            for name, share in self.tolerances.shares(design, reach).items()
             if is_number(design, name) and name not in self._specimens
         }
         if not given and not self._specimens:
@@ -122,6 +132,9 @@ class HowSure(Asked):
         specification, current = self.assessment.in_force, self.assessment.current
         limit = np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels
         self.percentiles.show(result.percentiles, current.levels, limit)
+        if not self.place.objects:
+            self.place.objects = [self._pane]
+            self._exchange.introduce()
         question = self.inquiry.answered
         self._production.computed = (
             *(result.design, question.reference, question.summation),
@@ -156,7 +169,7 @@ class HowSure(Asked):
             ),
             self.sentence,
             pn.FlexBox(self.answered_row, self.in_explore, margin=0),
-            bokeh_pane(self.percentiles.model),
+            self.place,
             self.table,
         )
 

@@ -11,6 +11,7 @@ from dashboard.formats import quantity_text
 from dashboard.views.decide.asked import BOX
 from trackig_core.decide.numbers import changeable_numbers, single_numbers
 from trackig_core.names import brief
+from trackig_core.track.fields import RANGES
 from trackig_core.typed_numbers import NumberError, read_number
 
 
@@ -55,10 +56,14 @@ class NumberBox(pmui.TextInput):
         return int(number) if self._whole else number
 
     def _mark(self, *_):
+        """Say at the box itself why it holds no number."""
         try:
-            self.error_state = self.number is None
-        except ValueError:
-            self.error_state = True
+            _ = self.number
+        except ValueError as error:
+            said = str(error).removeprefix(f"{self.label}: ")
+        else:
+            said = ""
+        self.param.update(error_state=bool(said), helper_text=said)
 
 
 def percent_box(name, value):
@@ -200,10 +205,46 @@ class ShareBoxes:
         for box in self.boxes.values():
             box.value = share
 
-    def shares(self, design):
-        """Return the shares of what a design has, none of which is zero, by name [-]."""
+    def shares(self, design, reach=1.0):
+        """Return the shares of what a design has, none of which is zero, by name [-].
+
+        Parameters
+        ----------
+        design : trackig_core.TrackDesign
+            The design.
+        reach : float
+            How many times its share a number may be away from what is stated [-].
+
+        Raises
+        ------
+        ValueError
+            If a box holds no share, or one with which its number would leave what a track can have.
+        """
         there = changeable_numbers(design)
-        return {name: box.number / 100 for name, box in self.boxes.items() if name in there and box.number}
+        given = {name: box.number for name, box in self.boxes.items() if name in there}
+        for name, share in given.items():
+            if share > (most := _largest_share(design, name) / reach):
+                raise ValueError(
+                    f"{self.boxes[name].label}: {quantity_text(share)}: give 0 to "
+                    f"{quantity_text(math.floor(10 * most) / 10)} %; {_span_words(name)}."
+                )
+        return {name: share / 100 for name, share in given.items() if share}
+
+
+def _largest_share(design, name):
+    """Return how far a number of a design may be away from what is stated [%]."""
+    stated = design.value(name)
+    if not isinstance(stated, float):
+        return MOST_CHANGE
+    low, high, _ = RANGES[name]
+    return 100 * min(MOST_CHANGE / 100, 1 - low / stated, high / stated - 1)
+
+
+def _span_words(name):
+    """Return what a track can have of a number, in words and in the unit that is shown."""
+    field = ASKED_FIELDS[name]
+    low, high = (quantity_text(end / field.factor) for end in RANGES[name][:2])
+    return f"a track has a {field.label.lower()} of {low} to {high} {field.unit}".rstrip()
 
 
 AROUND = ASKED_FIELDS.keys() - FIELDS.keys()

@@ -33,6 +33,10 @@ class Search(Asked):
     """Designs that comply, on the front of margin against what else counts."""
 
     kind = "find"
+    before = (
+        "Choose which numbers are free, then press “Find designs”: the best ones come as pictures while it "
+        "searches. It takes a specification."
+    )
     hint = (
         "Brush the pictures to see insertion gain of several; tap a design to take or pin it, or go through "
         "the best ones with the arrow keys and press Enter."
@@ -111,6 +115,9 @@ class Search(Asked):
             "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
         )
         self.cloud = CloudFigure(self._choose)
+        objectives = with_legend(self.cloud.objectives, self.cloud.legend)
+        self._pictures = beside(objectives, self.cloud.fields, self.cloud.gains)
+        self.place = pn.Column(sizing_mode="stretch_width", margin=0)
         for figure in (self.cloud.objectives, self.cloud.fields):
             exchange.on_key(figure.name, self._key)
         self.against.param.watch(self._offer_prices, "value")
@@ -192,6 +199,9 @@ class Search(Asked):
             np.full(tig.BAND_CENTRES.size, np.nan) if specification is None else specification.levels,
             (axes[0][1], axes[-1][1]),
         )
+        if not self.place.objects:
+            self.place.objects = [self._pictures]
+            self._exchange.introduce()
 
     def words(self, found):
         """Return the answer in one sentence."""
@@ -231,8 +241,6 @@ class Search(Asked):
 
     def build(self):
         """Return what is put on the page."""
-        objectives = with_legend(self.cloud.objectives, self.cloud.legend)
-        pictures = (objectives, self.cloud.fields, self.cloud.gains)
         return pn.Column(
             titled("Free", self.free),
             self.given,
@@ -253,7 +261,7 @@ class Search(Asked):
             pn.FlexBox(self.take, self.pin_name, self.pin, margin=(0, 12)),
             self.parts,
             self.explained,
-            beside(*pictures),
+            self.place,
             sizing_mode="stretch_width",
             margin=0,
         )

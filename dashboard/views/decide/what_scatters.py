@@ -23,12 +23,13 @@ class WhatScatters(Asked):
     """
 
     kind = "sobol"
+    before = "Press “Which tolerance?”: it says how much of the scatter is due to each tolerance given above."
 
     def __init__(self, snapshot, exchange, how_sure):
         super().__init__(snapshot, exchange)
         self._how_sure = how_sure
         self.table = pn.pane.HTML("", stylesheets=[theme.SHARES_CSS], sizing_mode="stretch_width", margin=0)
-        self.button.label = "Over the tolerances"
+        self.button.label = "Which tolerance?"
 
     def settings(self):
         """Return what is asked about the current design."""

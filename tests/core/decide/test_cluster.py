@@ -195,6 +195,7 @@ def test_designs_are_stepped_in_time_too(tmp_path):
 def test_samples_are_those_of_one_draw():
     samples = Samples(BLOCK, {"boot_stiffness": 0.1, "pad_stiffness": Normal(0.05)}, 1000, seed=3)
     whole, part = samples.columns(0, 1000), samples.columns(512, 600)
+    assert list(part) == list(whole) == ["boot_stiffness", "pad_stiffness"]
     for name, values in part.items():
         assert np.array_equal(values, whole[name][512:600])
 

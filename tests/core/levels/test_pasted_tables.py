@@ -1,6 +1,7 @@
 """Specifications and sources as people paste them: what is read, what is set aside, what is refused."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -90,13 +91,13 @@ def test_octave_bands_are_named_as_such():
 @pytest.mark.parametrize(
     ("data", "line", "column", "words"),
     [
-        ("Hz;a;b\n31.5;-6;-7", 1, 3, "column 2 ('a') and column 3 ('b') may both hold ig_max_db: keep one"),
+        ("Hz;a;b\n31.5;-6;-7", 1, 3, "column 2 ('a') and column 3 ('b') may both hold the limit: keep one"),
         ("31,5,-3,5\n40,0,-4,5", 1, 3, "if numbers have decimal commas, separate them by semicolons"),
         ("31.5 - 6\n40 - 8", 1, 2, "'- 6' may be one number, or no value and a number"),
-        ("31.5;-6\n40;-8*", 2, 2, "ig_max_db = '-8*': give a number from -100 to 100 dB"),
-        ("31.5;-6\n;-8", 2, 1, "frequency_hz = ''"),
-        ("31.5;-6\n4O;-8", 2, 1, "frequency_hz = '4O'"),
-        ("31.5;-6\n600;-8", 2, 1, "frequency_hz = 600.0"),
+        ("31.5;-6\n40;-8*", 2, 2, "limit '-8*': give a number from -100 to 100 dB"),
+        ("31.5;-6\n;-8", 2, 1, "frequency ''"),
+        ("31.5;-6\n4O;-8", 2, 1, "frequency '4O'"),
+        ("31.5;-6\n600;-8", 2, 1, "frequency 600.0"),
         ("31.5;-6 kg\n40;-8", 1, 2, "'-6 kg' is in kg, a unit of mass: give it in dB"),
         ("31.5;>= -6", 1, 2, "'>= -6': give greatest insertion gain allowed, or the least insertion loss"),
         ("31.5;<= -6\n40;>= 8", 2, 2, "'>= 8'"),
@@ -236,3 +237,42 @@ def test_a_specification_may_be_written_in_many_ways(limits, how):
     reading = Specification.read(text if how["code"] is None else text.encode(how["code"]))
     assert list(reading.table.points) == points
     assert reading.notes in ((), ("only octave bands are given: each is taken as its one-third-octave band",))
+
+
+PAIRS = tig.Specification([(63, 0), (80, -3), (100, -4.5)])
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "63 0 80 -3 100 -4.5",
+        "63\t0\t80\t-3\t100\t-4,5",
+        "63; 0; 80; -3; 100; -4,5",
+        "63 Hz 0 dB 80 Hz -3 dB 100 Hz -4.5 dB",
+    ],
+)
+def test_frequencies_and_levels_in_turn_on_one_line_are_pairs(line):
+    reading = tig.Specification.read(line)
+    assert reading.table.points == PAIRS.points
+    assert "the line is read as frequency and level in turn" in reading.notes
+
+
+@pytest.mark.parametrize(
+    ("line", "count"), [("63 80 100 125", 4), ("80 -3 63 0", 4), ("62 1 99 2 3 4", 6), ("63 80 -3", 3)]
+)
+def test_one_line_that_may_be_read_in_two_ways_is_refused_with_an_example(line, count):
+    with pytest.raises(tig.SpecificationError) as refused:
+        tig.Specification.read(line)
+    assert str(refused.value) == (
+        f"line 1: {count} values in one line: give a line per band, frequency in Hz and limit in dB, "
+        "such as 63 -3"
+    )
+
+
+@pytest.mark.parametrize("kind", [tig.Specification, tig.SourceSpectrum, tig.MeasuredGain])
+def test_the_example_of_a_refusal_is_one_that_is_taken(kind):
+    with pytest.raises(tig.BandTableError, match=r"such as 63 -?[0-9]+$") as refused:
+        kind.read("hello")
+    assert not re.search("[a-z]_[a-z]", str(refused.value)), "no names of columns"
+    reading = kind.read(str(refused.value).rpartition("such as ")[2])
+    assert [frequency for frequency, _ in reading.table.points] == [63]

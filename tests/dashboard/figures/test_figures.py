@@ -25,7 +25,7 @@ from dashboard.figures.force import (
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.session.pins import current_design
 from dashboard.session.results import DesignResult, SolutionSummary
-from dashboard.theme import MOST_PINNED
+from dashboard.theme import LINE_WIDTH, MOST_PINNED
 from trackig_core.names import LONGEST_NAME
 
 # the least floats that there are would be lost when divided by a step
@@ -294,6 +294,27 @@ def test_all_pinned_curves_are_seen(gain, summary):
     high = pinned(shown, "loud", louder=40.0)
     gain.show(current(shown), (high,))
     assert gain.model.y_range.end >= high.levels.max()
+
+
+@pytest.mark.parametrize("figure", [InsertionGainFigure, ForceFigure, GainsFigure])
+def test_a_pinned_copy_of_the_current_design_is_seen_beside_its_curve(figure, summary):
+    drawn, same = figure(), summary("booted-block-low-mass")
+    pins = (pinned(same, "copy"), pinned(summary("slab-track"), "other"))
+
+    def widths():
+        return [line.glyph.line_width for line in drawn._pinned.lines]
+
+    show = (lambda *designs: drawn.show(designs)) if figure is GainsFigure else drawn.show
+    arguments = pins if figure is GainsFigure else (pins,)
+    show(current(same), *arguments)
+    copy, other = widths()
+    assert copy >= LINE_WIDTH + 4, "on both sides of the line in front of it"
+    assert other < LINE_WIDTH
+    show(current(summary("slab-track")), *arguments)
+    assert widths() == [other, copy]
+    if figure is InsertionGainFigure:
+        drawn.show(current(same), pins, alone=True)
+        assert widths() == [other, other]
 
 
 def limits(**levels):

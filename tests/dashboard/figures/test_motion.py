@@ -7,6 +7,7 @@ from bokeh.models import Circle
 import trackig_core as tig
 from dashboard.figures import motion as figures
 from dashboard.figures.motion import WHEEL_HEIGHT, FilmPlayer, ShapePlayer
+from dashboard.theme import AXIS_SIZES, TICK_SIZES
 
 BLOCK, SLAB = tig.PRESETS["booted-block-low-mass"], tig.PRESETS["slab-track"]
 
@@ -25,6 +26,12 @@ def test_a_film_is_sent_whole_and_bounded(design):
     assert ("block_0" in sent) == design.two_stage
     assert sum(np.asarray(column).nbytes for column in sent.values()) < 300_000
     assert (player.slider.start, player.slider.end) == pytest.approx((sent["time"][0], sent["time"][-1]))
+
+
+@pytest.mark.parametrize("player", [FilmPlayer, ShapePlayer])
+def test_its_axis_is_as_legible_as_those_of_all_figures(player):
+    (axis,) = player().view.model.xaxis
+    assert (axis.major_label_text_font_size, axis.axis_label_text_font_size) == (TICK_SIZES[1], AXIS_SIZES[1])
 
 
 @pytest.mark.parametrize("design", [BLOCK, SLAB], ids=["two stages", "one stage"])

@@ -1,6 +1,5 @@
 """The address bar: what was encoded comes back, and whatever else is there does no harm."""
 
-import re
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
@@ -14,9 +13,11 @@ from dashboard.session import surroundings
 from dashboard.session.inputs import (
     DesignInputs,
     GainDefinition,
+    InputError,
     check_values,
     design_of,
     preset_values,
+    read_input,
     values_of,
 )
 from dashboard.session.pins import Pins
@@ -169,24 +170,35 @@ def test_a_link_by_hand_names_a_preset_and_what_differs():
 def test_a_number_without_bound_is_no_number():
     link = opened(pad_stiffness=b"1e999")
     assert design_of(link.values) == design_of(OPENING)
-    assert link.problems == ("Pad stiffness is too large a number; 100 was taken.",)
+    assert link.problems == ("Pad stiffness is too large a number; it stays at 100 kN/mm.",)
 
 
 @pytest.mark.parametrize(
-    ("raw", "value"),
-    [
-        (b"1e99", 1e13),
-        (b"-0", 1e5),
-        (b"-5", 1e5),
-        (b"0.0999", 1e5),
-        (b"10000001", 1e13),
-    ],
+    ("raw", "shown"),
+    [(b"1e99", "1e+99"), (b"-0", "-0"), (b"-5", "-5"), (b"0.0999", "0.0999"), (b"1.01e7", "1.01e+07")],
 )
-def test_numbers_that_no_track_has_are_clamped_and_said(raw, value):
-    link = opened(pad_stiffness=raw)
-    assert design_of(link.values) == design_of(OPENING).replace(pad_stiffness=value)
+def test_a_number_that_no_track_has_leaves_the_preset_s_and_the_range_of_its_box_is_said(raw, shown):
+    link = opened(preset=b"booted-sleeper", pad_stiffness=raw)
+    assert link.values == preset_values("booted-sleeper")
+    assert link.problems == (
+        f"Pad stiffness is {shown} kN/mm, and its box takes 10 to 2000 kN/mm; it stays at 150 kN/mm.",
+    )
+
+
+@pytest.mark.parametrize("name", [*NUMBERS, *EXTRAS])
+@pytest.mark.parametrize("beyond", ["-1", "1e30"])
+def test_the_range_that_is_said_is_the_one_that_the_box_says(name, beyond):
+    link = opened(**{name: beyond.encode()})
+    assert link.values == OPENING
     (problem,) = link.problems
-    assert re.fullmatch(r"Pad stiffness is .*, beyond 0.1 to 1e\+07; [\d.e+]+ was taken\.", problem)
+    with pytest.raises(InputError) as refused:
+        read_input(name, float(beyond))
+    assert f" takes {str(refused.value).removeprefix('give ')}; it " in problem
+
+
+def test_a_loss_factor_goes_as_far_as_its_box():
+    link = opened(pad_loss_factor=b"1.9")
+    assert (design_of(link.values).pad_loss_factor, link.problems) == (1.9, ())
 
 
 @pytest.mark.parametrize(
@@ -198,8 +210,10 @@ def test_numbers_that_no_slider_shows_come_back_exactly(stiffness):
     pinned = (tig.PinnedDesign("Odd", design, preset=OPENING["preset"]),)
     link = decode(arguments(encode(values, {}, pinned, 0)))
     assert link.values == values
-    assert (link.pins, link.base, link.problems) == (pinned, 0, ())
-    assert left_out(values, pinned) == ""
+    assert (link.pins, link.base) == (pinned, 0)
+    beyond = [problem.endswith("kN/mm; it was taken all the same.") for problem in link.problems]
+    assert beyond == ([] if 10e6 <= stiffness <= 2000e6 else [True, True]), "of the design and of its pin"
+    assert left_out(values, pinned) == []
 
 
 CURVE = tig.StiffnessCurve([(5, 90e6, 0.1), (500, 150e6, 0.2)])
@@ -221,7 +235,7 @@ def test_what_needs_the_study_file_is_said_where_the_link_is_opened_and_copied(c
         f"{said}: the link cannot hold it and needs the study file; the sliders stand in.",
         "Pinned designs with curves or rails of their own are missing: they are in the study file.",
     )
-    assert left_out(values, (odd, plain)) == f"{copied}, “Odd”"
+    assert left_out(values, (odd, plain)) == [f"the {copied}", "the pinned design “Odd”"]
     assert decode(arguments(encode(values, {}, (odd, plain), 0))).base is None
 
 
@@ -244,7 +258,7 @@ def test_what_needs_the_study_file_is_said_where_the_link_is_opened_and_copied(c
 def test_what_is_no_number_is_ignored_and_said(raw):
     link = opened(pad_stiffness=raw)
     assert link.values == OPENING
-    assert link.problems == ("Pad stiffness is no number; 100 was taken.",)
+    assert link.problems == ("Pad stiffness is no number; it stays at 100 kN/mm.",)
 
 
 @pytest.mark.parametrize("name", ["preset", "two_stage", "rail", "summation", "reference"])
@@ -253,7 +267,10 @@ def test_choices_that_are_not_on_offer_are_ignored_and_said(name, raw):
     link = opened(**{name: raw})
     assert (link.values, link.view) == (OPENING, {})
     assert len(link.problems) == 1
-    assert link.problems[0].endswith("is none of those on offer; it was ignored.")
+    said, can_be = link.problems[0].split("; it can be ")
+    assert said.endswith("in the link is unknown and was ignored")
+    for each in can_be.removesuffix(".").removesuffix(", …").split(", "):
+        assert opened(**{name: each.encode()}).problems == (), "what is said to be possible is"
 
 
 def test_a_page_may_offer_further_views():
@@ -332,10 +349,12 @@ def test_pins_are_made_to_differ():
     assert [pin.colour for pin in link.pins] == [0, 1, 2, 3]
 
 
-def test_values_of_pins_are_clamped_and_said():
+def test_values_that_no_pin_can_have_are_its_preset_s_and_said():
     link = opened(pin=pin_text(block_mass="1e6"))
-    assert link.pins[0].design.block_mass == 1e4
-    assert link.problems == ("Pin 1: Block mass is 1e+06, beyond 1 to 10000; 10000 was taken.",)
+    assert link.pins[0].design.block_mass == 45
+    assert link.problems == (
+        "Pin 1: Block mass is 1e+06 kg, and its box takes 10 to 500 kg; it stays at 45 kg.",
+    )
 
 
 def test_eight_pins_are_taken_of_a_thousand():

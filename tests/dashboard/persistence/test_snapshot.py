@@ -5,6 +5,7 @@ from urllib.parse import parse_qs
 import pytest
 
 import trackig_core as tig
+from dashboard.persistence.link import MOST_PROBLEMS
 
 LIMITS = tig.Specification([(63, -3.0), (125, -5.0)], "Tunnel")
 SOURCE = tig.SourceSpectrum([(31.5, 60.0)])
@@ -41,6 +42,33 @@ def test_a_link_reopens_design_pins_view_and_tab(filled, summary):
     assert state(other) == state(filled)
     assert other.snapshot.tab == "level"
     assert other.snapshot.query() == filled.snapshot.query()
+
+
+BESIDE = {
+    "specification": (LIMITS, "the specification"),
+    "source": (SOURCE, "the source spectrum"),
+    "measured": ((tig.MeasuredGain([(63, -3.0)], "Test house"),), "insertion gain from elsewhere"),
+    "title": ("Line 4", "the name of the study"),
+}
+
+
+@pytest.mark.parametrize(("name", "value", "words"), [(name, *each) for name, each in BESIDE.items()])
+def test_whatever_does_not_come_back_from_a_link_is_said_to_be_left_out(session, summary, name, value, words):
+    assert session.snapshot.left_out == ""
+    setattr(session.assessment, name, value)
+    other = type(session)(summary)
+    other.snapshot.follow(arguments(session.snapshot.query()))
+    assert getattr(other.assessment, name) != value
+    assert session.snapshot.left_out == words
+    other.snapshot.open(session.snapshot.study().to_toml())
+    assert getattr(other.assessment, name) == value, "as it is said, the study file holds it"
+
+
+def test_kept_answers_are_said_to_be_left_out_of_a_link(filled):
+    filled.snapshot.answers.kept = (object(),)
+    assert filled.snapshot.left_out == (
+        "the specification, the source spectrum, the kept answers, the name of the study"
+    )
 
 
 def test_a_study_is_undone_in_one_step_and_a_link_is_where_undo_begins(filled, summary):
@@ -117,7 +145,8 @@ def test_a_hostile_link_opens_what_it_can_and_tells_the_rest(session):
     assert session.inputs.boot_stiffness == 28, "a number without bound is none: the preset's stays"
     assert session.snapshot.tab == "explore"
     assert not session.pins.alone
-    assert len(problems) == 5
+    assert len(problems) == MOST_PROBLEMS + 1
+    assert problems[-1] == "And 2 more of the kind."
     assert not any("<" in words for words in problems)
 
 

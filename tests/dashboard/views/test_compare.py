@@ -21,7 +21,7 @@ from dashboard.session.shelf import Shelf
 from dashboard.session.steps import Steps
 from dashboard.teaching.lessons import set_sliders
 from dashboard.theme import MOST_PINNED
-from dashboard.views.compare import Compare
+from dashboard.views.compare import NOTHING_TO_COMPARE, Compare
 from dashboard.views.comparison_table import table_html
 from dashboard.views.design_bar import DesignBar
 from dashboard.views.likeness import Likeness, likeness_words
@@ -113,6 +113,14 @@ def test_differences_are_drawn_from_the_base(session):
     assert names == ["this design", "booted-sleeper"]
     (hover,) = session.view.differences.model.select({"type": HoverTool})
     assert [name for name, _ in hover.tooltips] == ["band", *names]
+
+
+def test_without_a_second_design_it_says_what_to_do_instead_of_an_empty_plot(session):
+    assert session.view._difference_place.objects == [session.view._difference_pane]
+    for pin in session.pins.pinned:
+        session.pins.remove(pin.key)
+    (said,) = session.view._difference_place.objects
+    assert said.object == NOTHING_TO_COMPARE
 
 
 def test_a_base_that_is_not_solved_yet_says_no_differences(session):
@@ -408,5 +416,9 @@ def test_statics_stand_side_by_side_and_only_extra_numbers_that_are_set():
     assert f"<td>≥ {first:.2f}</td>" in text
     assert f'<td>{second:.2f}<span class="difference">+{second - first:.2f}</span></td>' in text
     assert "Stiffness stated at, Hz" in text
+    same = table_html(
+        [results[0], DesignResult(results[1].pinned, statics=results[0].statics)], results[0], []
+    )
+    assert f'<td>≥ {first:.2f}<span class="difference">0.0</span></td>' in same
     assert "Pad static stiffness" in text
     assert "Pad static stiffness" not in table_html(results[:1], results[0], [])

@@ -74,6 +74,19 @@ def test_nothing_is_asked_that_nobody_looks_at(session):
     assert session.view.what_matters.inquiry.asked is None
 
 
+@pytest.mark.parametrize("name", ["how_sure", "what_scatters", "map", "search"])
+def test_before_it_is_asked_a_question_says_what_to_press_and_draws_nothing(session, name):
+    view = getattr(session.view, name)
+    assert f"ress “{view.button.label}”" in view.sentence.object
+    if hasattr(view, "place"):
+        assert view.place.objects == []
+        session.do(view.ask)
+        assert len(view.place.objects) == 1
+    else:
+        session.do(view.ask)
+    assert "ress “" not in view.sentence.object
+
+
 def test_without_a_specification_it_says_what_to_do(summary, make_pictures):
     session = Session(summary, make_pictures, None)
     session.do(session.view.look, active=True)
@@ -384,8 +397,48 @@ def test_a_box_reads_numbers_as_people_type_them(typed, number):
 def test_a_box_says_why_it_takes_no_number(box, typed, why):
     box.value = typed
     assert box.error_state
+    assert why in box.helper_text, "it is said where it was typed"
+    assert box.label not in box.helper_text
     with pytest.raises(ValueError, match=why):
         _ = box.number
+
+
+@pytest.mark.parametrize(
+    ("kind", "share", "most"),
+    [
+        ("uniform", "90", "83.3 %"),
+        ("uniform", "83.3", None),
+        ("normal", "56", "55.5 %"),
+        ("normal", "55", None),
+    ],
+)
+def test_a_tolerance_that_no_track_could_keep_is_refused_in_words_of_the_page(session, kind, share, most):
+    view = session.view.how_sure
+    view.samples.value = 1000
+    for name, box in view.tolerances.boxes.items():
+        box.value = share if name == "fastener_spacing" else "0"
+    view.shape.value = kind
+    session.do(view.ask)
+    if most is None:
+        assert view.inquiry.result is not None
+        assert view.inquiry.problem == ""
+    else:
+        assert f"Fastener spacing, ± %: {share}: give 0 to {most}; " in view.sentence.object
+        assert "a track has a fastener spacing of 0.1 to 2 m." in view.sentence.object
+        assert view.inquiry.asked is None
+
+
+@pytest.mark.parametrize("kind", ["uniform", "normal"])
+def test_every_share_that_a_box_takes_is_one_that_the_library_takes(session, kind):
+    view = session.view.how_sure
+    view.samples.value = 1000
+    view.shape.value = kind
+    for name, box in view.tolerances.boxes.items():
+        if name != "fastener_spacing":
+            box.value = "90" if kind == "uniform" else "60"
+    session.do(view.ask)
+    assert view.inquiry.problem == ""
+    assert view.inquiry.result is not None
 
 
 def test_a_number_that_is_none_is_said_where_the_answer_would_be(session):

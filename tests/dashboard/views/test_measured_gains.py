@@ -25,6 +25,7 @@ def test_a_pasted_table_becomes_a_named_curve_and_no_specification(session, view
     assert session.assessment.specification is None
     assert session.assessment.current.verdict is None
     assert (view.name_box.value, view.pasted.value) == ("", "")
+    assert "Taken: 2 bands, 31.5 to 63 Hz." in view.message.object
 
 
 def test_names_are_made_to_differ_and_four_are_enough(session, view):

@@ -106,6 +106,7 @@ def test_files_tables_and_columns_are_taken(session, view, exchange):
     view.editor.apply.param.trigger("clicks")
     assert limits(session) == {63.0: -3.0, 80.0: -4.5}
     assert view.editor.pasted.value == ""
+    assert "Taken: 2 bands, 63 to 80 Hz." in view.editor.answer.object
     view.editor.pasted.value = "63\t-3\n80\tx"
     view.editor.apply.param.trigger("clicks")
     assert "line 2, column 2" in view.editor.answer.object
@@ -114,6 +115,7 @@ def test_files_tables_and_columns_are_taken(session, view, exchange):
     place = tig.BAND_LABELS.index("100")
     view.editor.grid.handle_message({"kind": "pasted", "band": place, "text": "-6\n-7\n"})
     assert limits(session) == {63.0: -3.0, 80.0: -4.5, 100.0: -6.0, 125.0: -7.0}
+    assert "Taken: 2 numbers, from 100 Hz on." in view.editor.message.object
     view.editor.grid.handle_message({"kind": "pasted", "band": 20, "text": "1\n2\n"})
     assert "1 at most from 500 Hz on" in view.editor.message.object
     view.editor.clear.param.trigger("clicks")

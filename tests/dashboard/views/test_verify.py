@@ -12,6 +12,7 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.compute import checker as checker_module
 from dashboard.compute.checker import VerificationRunner, check
+from dashboard.fields import PRESET_LABELS
 from dashboard.figures.verification import (
     ComparisonFigure,
     DampingFigure,
@@ -145,6 +146,7 @@ def test_the_peer_stands_beside_the_twin(view, preset):
     own = view.receptance.solution.data
     at_peer = np.interp(np.log(peer.frequency), np.log(own["frequency"]), own["receptance"])
     np.testing.assert_allclose(at_peer[:10], 1e12 * np.abs(peer.euler)[:10], rtol=0.01)
+    assert view.words["peer"].object.startswith(f"{PRESET_LABELS[preset]} as published, whatever the sliders")
     said = float(re.search(r"within ([\d.]+) dB", view.words["peer"].object).group(1))
     assert 0 < said < 0.07
 
