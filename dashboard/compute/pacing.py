@@ -27,7 +27,10 @@ IDLE = 1.0
 """Time in which nobody works and no page opens after which something is done that nobody waits for [s]."""
 
 BUSY = 0.1
-"""Time that drawing takes on a server that is busy with others; alone it takes a third of that [s]."""
+"""Time that a picture waits for its turns on a server that is busy with others; alone a third of that [s]."""
+
+CALMING = 0.8
+"""What is left of the longest wait for a picture after each one that came sooner [-]."""
 
 log = logging.getLogger(__name__)
 
@@ -49,8 +52,8 @@ class Pace:
         return self._drawing > BUSY
 
     def drew(self, seconds):
-        """Note how long drawing a picture took, from when it could be drawn [s]."""
-        self._drawing = seconds
+        """Note how long a picture waited for its turns [s]; a server is busy until several came soon."""
+        self._drawing = max(seconds, CALMING * self._drawing)
 
     def hear(self, document):
         """Note that a page sent something; one that opens does not count as one where somebody works.

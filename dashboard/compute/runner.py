@@ -28,8 +28,9 @@ from dashboard.fields import PHYSICAL
 REST = 0.2
 """Seconds without a change after which inputs are at rest, unless pictures take longer than that."""
 
-RESTS = 2
-"""Times that a picture takes after which inputs are at rest: a busy server is no resting hand."""
+RESTS = 4
+"""Times that a picture takes after which inputs are at rest: a busy server is no resting hand. The next move
+waits for as many turns of the event loop as the picture did, and more."""
 
 SOON = 0.06
 """Seconds for which a live run is waited for before the exact curve is drawn."""
@@ -95,8 +96,12 @@ class Runner(param.Parameterized):
         self._latest = Latest(self._solve)
         self._stopping = False
         self._live_is_slow = False
-        self._watcher = inputs.param.watch(self._on_change, list(PHYSICAL))
-        self.param.watch(self._on_change, "requests")
+        self._changed = 0.0
+        # noted at once; what is done waits for its turn
+        self._watchers = []
+        for each in (self._note_change, self._on_change):
+            self._watchers.append(inputs.param.watch(each, list(PHYSICAL)))
+            self.param.watch(each, "requests")
 
     def start(self):
         """Show the picture of the inputs as they stand: at once if the store has it, else when solved."""
@@ -118,8 +123,12 @@ class Runner(param.Parameterized):
 
     def close(self, *_):
         """Stop watching and solving: the session is over."""
-        self.inputs.param.unwatch(self._watcher)
+        for each in self._watchers:
+            self.inputs.param.unwatch(each)
         self.stop()
+
+    def _note_change(self, *_):
+        self._changed = time.monotonic()
 
     async def _on_change(self, *_):
         self._stopping = False
@@ -169,21 +178,22 @@ class Runner(param.Parameterized):
 
     async def _follow(self, design, document):
         """Show a design that may not stay, then wait until it does; what is newer ends the wait."""
+        changed, began = self._changed, time.monotonic()
         is_busy = self._pace.is_busy or self._live_store.is_crowded()
-        taken = self._draw_exact(design, document) if is_busy else None
-        if taken is None:
-            taken = await self._draw_live(design, document)
-        drawing = await self._until_drawn(document)
-        self._pace.drew(drawing)
-        if await self._latest.news_within(max(REST, RESTS * (taken + drawing))):
+        if not (is_busy and self._draw_exact(design, document)):
+            await self._draw_live(design, document)
+        solved = time.monotonic()
+        await self._until_drawn(document)
+        drawn = time.monotonic()
+        self._pace.drew(began - changed + drawn - solved)
+        if await self._latest.news_within(max(REST, RESTS * (drawn - changed))):
             raise _SupersededError
 
     async def _draw_live(self, design, document):
-        """Draw a live run, or the exact curve before it, and return when there was a picture [s]."""
-        taken = 0.0
+        """Draw a live run, or the exact curve before it."""
         live = asyncio.ensure_future(self._obtain(design, MOVING, document))
         try:
-            taken = await self._bridge(live, design, document)
+            await self._bridge(live, design, document)
             summary, _ = await live
             self._publish(document, **self._success(design, summary, from_cache=False))
         except (_SlowError, tig.DesignError, tig.RunTooLargeError):
@@ -193,47 +203,39 @@ class Runner(param.Parameterized):
                 self._draw_exact(design, document)
         finally:
             _abandon(live)
-        return taken
 
     async def _until_drawn(self, document):
-        """Wait until what was published is drawn, and return how long that took [s]; what is newer ends it.
+        """Wait until what was published is drawn; what is newer ends it.
 
         Where many sessions draw, it takes longer than the solve, and no hand moves on before it sees the
         picture.
         """
-        began, drawn = time.monotonic(), asyncio.get_running_loop().create_future()
+        drawn = asyncio.get_running_loop().create_future()
         on_next_tick(document, lambda _: drawn.done() or drawn.set_result(None))
         await self._latest.done_or_news(drawn, PATIENCE)
-        return time.monotonic() - began
 
     def _draw_exact(self, design, document):
-        """Draw the exact curve of a design and return how long that took [s]; None if it has none."""
-        began = time.monotonic()
+        """Draw the exact curve of a design, and return whether it has one."""
         with contextlib.suppress(tig.DesignError):
             summary, from_cache = self._live_store.at_once(key_of(design, AT_ONCE))
             self._publish(document, **self._success(design, summary, from_cache))
-            return time.monotonic() - began
-        return None
+            return True
+        return False
 
     async def _bridge(self, live, design, document):
-        """Draw the exact curve while a live run is awaited for long, and return when there was a picture [s].
-
-        What is newer ends the wait.
+        """Draw the exact curve while a live run is awaited for long; what is newer ends the wait.
 
         Where the last one took long, this one will: its exact curve is drawn without waiting. It stays where
         the live run is given up.
         """
         began = time.monotonic()
         await asyncio.wait({live}, timeout=0 if self._live_is_slow else SOON)
-        taken = time.monotonic() - began
         if not live.done():
             self._draw_exact(design, document)
-            taken = time.monotonic() - began
             await self._latest.done_or_news(live, PATIENCE)
             if not live.done() and self._latest.pending:
                 raise _SupersededError
         self._live_is_slow = time.monotonic() - began > SOON
-        return taken
 
     def _success(self, design, summary, from_cache):
         return {

@@ -12,6 +12,7 @@ import pytest
 import trackig_core as tig
 from dashboard.compute import runner as runner_module
 from dashboard.compute.latest import readable
+from dashboard.compute.pacing import BUSY, Pace
 from dashboard.compute.runner import EXACT_ALL_THE_SAME, STOPPED_EXACT, STOPPED_LIVE, Runner
 from dashboard.compute.workers import AT_ONCE, AT_REST, MOVING, solve_summary
 from dashboard.session.inputs import DesignInputs
@@ -225,6 +226,40 @@ def test_a_hand_that_waits_for_pictures_of_a_busy_server_is_not_at_rest(make_sto
     asyncio.run(drag())
     # once it is busy, there is one picture of a move, the exact one
     assert shown == [(300, MOVING), (310, AT_ONCE), (320, AT_ONCE), (320, AT_REST)]
+
+
+def test_what_is_asked_for_anew_after_a_while_rests_as_soon_as_what_has_just_changed(
+    make_store, gate, monkeypatch
+):
+    """The time since the inputs changed is no time that a picture took."""
+    now, waits = [0.0], []
+    monkeypatch.setattr(runner_module, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    store = make_store(gate.solve, capacity=1)
+    session = Session(store)
+    session.do(session.runner.start)
+    session.change(pad_stiffness=300)
+    store.at_once((tig.PRESETS["slab-track"], AT_REST))
+    now[0] += WAIT
+
+    async def note(seconds):
+        waits.append(seconds)
+        return False
+
+    session.runner._latest.news_within = note
+    session.do(session.runner.request)
+    assert waits == [runner_module.REST]
+
+
+def test_a_server_stays_busy_until_several_pictures_came_soon():
+    pace = Pace()
+    assert not pace.is_busy
+    pace.drew(2 * BUSY)
+    assert pace.is_busy
+    pace.drew(0.0)
+    assert pace.is_busy
+    for _ in range(10):
+        pace.drew(0.0)
+    assert not pace.is_busy
 
 
 def test_while_one_live_run_lasts_only_the_newest_change_waits(make_store, live_gate):
