@@ -139,7 +139,7 @@ def test_polite_sessions(served, row, count):
     polite, _, cost = run(load(served, sized(count), 0))
     row(
         f"{len(polite)} drag politely",
-        f"{summary(polite)}; {1000 * cost:.0f} ms of a processor a picture",
+        f"{summary(polite)}; {1000 * cost:.0f} ms of a processor a picture, {paper_run():.2f} s a paper run",
         "p95 below 1 s, nobody without" if count == 30 else "",
     )
 
