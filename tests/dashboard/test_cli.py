@@ -95,6 +95,7 @@ def test_a_track_is_written_as_a_study_that_other_commands_take(capsys, save, tm
     limits.write_text(CEILING.to_csv(), encoding="utf-8")
     words = ["solve", "booted-sleeper", "--set", "boot_stiffness=20kN/mm", "--fidelity", "exact"]
     words += ["--reference", "rigid", "--bands", "octave", "--wheel-load", "100 kN", "--wheelbase", "2.5 m"]
+    words += ["--limits", "insertion-gain"]
     assert main([*words, "--specification", str(limits), "--study", str(out)]) == 0
     assert "fidelity exact" in capsys.readouterr().out
     softer = tig.PRESETS["booted-sleeper"].replace(boot_stiffness=20e6)
