@@ -57,9 +57,8 @@ def wait_for_film(page, motion):
 
 
 @pytest.mark.parametrize("frame", [0, 57, 300, 614])
-def test_the_browser_draws_the_film_s_own_frames(kept_dashboard, frame):
-    dashboard = kept_dashboard(left=WANDERED)
-    choose(dashboard, "Track of Table 1", "Booted block, low mass")
+def test_the_browser_draws_the_film_s_own_frames(published_dashboard, frame):
+    dashboard = published_dashboard
     look_at(dashboard, "Motion")
     motion = tig.film(OPENING)
     wait_for_film(dashboard, motion)
