@@ -99,6 +99,9 @@ class SocketHandler(WSHandler):
         await PACE.turn()
         if self._is_open():
             await super()._async_open(token)
+        if self.connection is not None:
+            # what it says until all of it is there is no work at it
+            PACE.enter(self.connection.session.document)
 
     def _is_open(self):
         return self.ws_connection is not None and not self.ws_connection.is_closing()

@@ -15,6 +15,7 @@ from panel.io.server import WSHandler
 from panel.io.state import state
 from tornado.ioloop import IOLoop
 
+from dashboard.compute.pacing import PACE
 from dashboard.server import sessions
 from dashboard.server.serving import SocketHandler
 
@@ -96,7 +97,7 @@ def test_whoever_leaves_while_waiting_gets_no_session(monkeypatch, is_there):
 
     async def come():
         handler = SocketHandler.__new__(SocketHandler)
-        handler.ws_connection = SimpleNamespace(is_closing=lambda: False)
+        handler.ws_connection, handler.connection = SimpleNamespace(is_closing=lambda: False), None
         opening = asyncio.create_task(handler._async_open("a token"))
         await asyncio.sleep(0)
         if not is_there:
@@ -108,3 +109,24 @@ def test_whoever_leaves_while_waiting_gets_no_session(monkeypatch, is_there):
     monkeypatch.setattr(WSHandler, "_async_open", begin_session)
     asyncio.run(come())
     assert begun == ["a token"] * is_there
+
+
+def test_what_a_page_says_as_it_opens_is_no_work_at_it(monkeypatch):
+    document = Document()
+
+    async def begin_session(handler, _):
+        handler.connection = SimpleNamespace(session=SimpleNamespace(document=document))
+
+    async def come():
+        handler = SocketHandler.__new__(SocketHandler)
+        handler.ws_connection, handler.connection = SimpleNamespace(is_closing=lambda: False), None
+        await handler._async_open("a token")
+
+    monkeypatch.setattr(WSHandler, "_async_open", begin_session)
+    asyncio.run(come())
+    heard = PACE._heard
+    PACE.hear(document)
+    assert PACE._heard == heard
+    PACE.leave(document)
+    PACE.hear(document)
+    assert PACE._heard > heard
