@@ -77,26 +77,6 @@ def build(store=None, live_store=None):
     panel_material_ui.Page
         The page, its first design solved or being solved.
     """
-    return assemble(pn.state.session_args, store, live_store)[0]
-
-
-def assemble(arguments, store=None, live_store=None):
-    """Make the page of one session, and what has it follow another link.
-
-    Parameters
-    ----------
-    arguments : mapping of str to list of bytes
-        Those of the link's query, as the server hands them on.
-    store, live_store : SolutionStore, optional
-        As :func:`build` takes them.
-
-    Returns
-    -------
-    page : panel_material_ui.Page
-        The page.
-    follow : callable
-        Takes the arguments of another link, once somebody asks for a page that was made ahead.
-    """
     pn.extension(
         "katex",
         notifications=True,
@@ -109,7 +89,7 @@ def assemble(arguments, store=None, live_store=None):
     pinned = PinnedSummaries(pins, store, live_store)
     assessment = Assessment(inputs, outcome, definition, pins, pinned)
     snapshot = SessionSnapshot(inputs, definition, pins, assessment, [tab.link_name for tab in TABS])
-    problems = snapshot.follow(arguments)
+    problems = snapshot.follow(pn.state.session_args)
     runner = Runner(inputs, outcome, store, live_store, PACE)
     runner.start()
     checker = VerificationRunner(outcome)
@@ -153,31 +133,9 @@ def assemble(arguments, store=None, live_store=None):
     last = chain(put(exchange, status_place, status), notify_of_problems(problems))
     shown = tabs(snapshot, makers, exchange, last)
     controls = Controls(inputs, outcome, shelf, edit_curve, feasibility)
-    whole = page([bar_place, controls], status_place, shown, browser, exchange)
-    return whole, partial(follow_link, snapshot, exchange)
-
-
-def follow_link(snapshot, exchange, arguments):
-    """Have a page that was made ahead show what a link holds, as soon as a browser has the page.
-
-    Parameters
-    ----------
-    snapshot : SessionSnapshot
-        What the page shows.
-    exchange : Exchange
-        Prepares the browser.
-    arguments : mapping of str to list of bytes
-        The query's arguments as the server hands them on.
-    """
-    problems = snapshot.follow(arguments) if arguments else ()
-    if arguments:
-        exchange.note()
-
-    def introduce():
-        exchange.introduce()
-        yield
-
-    in_turns(chain(introduce(), notify_of_problems(problems)), report_error)
+    # what is said before there is a browser is lost: that of a page that was made ahead
+    pn.state.onload(exchange.introduce)
+    return page([bar_place, controls], status_place, shown, browser, exchange)
 
 
 def put(exchange, place, make):

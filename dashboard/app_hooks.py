@@ -10,7 +10,7 @@ from panel.config import config
 from tornado.ioloop import IOLoop
 
 import trackig_core as tig
-from dashboard.app import TITLE, assemble
+from dashboard.app import TITLE, build
 from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shared_store
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
@@ -42,7 +42,7 @@ def on_server_loaded(server_context):
         return
     # a page that is made of the opening picture asks for no other; the first prepares classes and scripts
     loop = IOLoop.current()
-    serve = partial(RESERVE.serve, server_context.application_context, assemble, TITLE, sessions.ahead())
+    serve = partial(RESERVE.serve, server_context.application_context, build, TITLE, sessions.ahead())
     opening.future.add_done_callback(lambda _: loop.add_callback(serve))
 
 

@@ -12,7 +12,7 @@ try:
 
     first_page.use_own_files(pn.state.curdoc)
     if sessions.admit(pn.state.curdoc):
-        is_ready = RESERVE.open(pn.state.curdoc, pn.state.session_args)
+        is_ready = RESERVE.open(pn.state.curdoc)
         page, title = None if is_ready else build(), TITLE
     else:
         page, title = sessions.full_page(), f"{TITLE} is full"

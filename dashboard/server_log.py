@@ -14,8 +14,11 @@ from tornado.websocket import WebSocketClosedError
 
 log = logging.getLogger(__name__)
 
-LOGGERS = ("bokeh.server.protocol_handler", "tornado.application", "asyncio")
+LOGGERS = ("bokeh.server.protocol_handler", "tornado.application", "asyncio", "panel.io.document")
 """Loggers that say so."""
+
+_CLOSED = "Failed sending message as connection was closed"
+"""What Panel says of each message that was on its way."""
 
 _CONNECTION = "bokeh/server/connection.py"
 """Where Bokeh asserts that a connection still has its session, also for messages after the last."""
@@ -52,7 +55,7 @@ def leave_out_empty_places():
 
 def _is_worth_logging(record):
     error = record.exc_info[1] if record.exc_info else None
-    if not is_departure(error):
+    if not is_departure(error) and record.msg != _CLOSED:
         return True
     log.debug("A reader left in the middle of a message")
     return False

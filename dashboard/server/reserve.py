@@ -1,21 +1,22 @@
 """Pages that are ready before anybody asks for them.
 
 Most of what a page costs the server does not depend on who asks: parts, figures, models. It is done ahead,
-while nobody works and no page opens, a step at a time. Whoever comes is given a page that is ready, which
-then follows the link; only where none is left, it is made while they wait.
+while nobody works and no page opens, a step at a time. Whoever comes by the plain address is given a page
+that is ready; where none is left, and for a link to a design, it is made while they wait. A page that is
+ready could not follow a link: what changes between its way to the browser and its being drawn is lost.
 """
 
 import asyncio
 import logging
 import weakref
 from collections import deque
-from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from dataclasses import dataclass
 from types import SimpleNamespace
 
 from bokeh.document import Document
 from bokeh.server import contexts
+from bokeh.util.token import get_token_payload
 from panel.io.document import init_doc
 from panel.io.state import set_curdoc
 
@@ -32,7 +33,6 @@ class _Ready:
 
     document: Document
     context: contexts.BokehSessionContext
-    follow: Callable[[Mapping[str, list[bytes]]], None]
 
 
 class Reserve:
@@ -58,7 +58,7 @@ class Reserve:
         application_context : bokeh.server.contexts.ApplicationContext
             The application.
         make : callable
-            Takes the arguments of a link, and returns a page and what has it follow those of another.
+            Returns a page.
         title : str
             Title of the page.
         size : int
@@ -67,12 +67,12 @@ class Reserve:
         self._make, self._context, self._title, self._size = make, application_context, title, size
         plain = application_context.create_session_if_needed
 
-        async def create_session_if_needed(*args, **kwargs):
-            token = _offered.set(self)
+        async def create_session_if_needed(session_id, request=None, token=None):
+            offered = _offered.set(None if _arguments(request, token) else self)
             try:
-                return await plain(*args, **kwargs)
+                return await plain(session_id, request, token)
             finally:
-                _offered.reset(token)
+                _offered.reset(offered)
 
         application_context.create_session_if_needed = create_session_if_needed
         contexts.Document = _document
@@ -87,26 +87,22 @@ class Reserve:
         self._fill()
         return ready.document
 
-    def open(self, document, arguments):
-        """Have the page in a document that was ready follow a link.
+    def open(self, document):
+        """Begin a session with the page in its document, if it was ready.
 
         Parameters
         ----------
         document : bokeh.document.Document or None
-            A session's document, with its session; None without one.
-        arguments : mapping of str to list of bytes
-            The query's arguments.
+            A session's document; None without a session.
 
         Returns
         -------
         bool
-            Whether there was such a page.
+            Whether it was.
         """
-        ready = None if document is None else self._taken.pop(document, None)
-        if ready is None:
+        if document is None or self._taken.pop(document, None) is None:
             return False
         init_doc(document)
-        ready.follow(arguments)
         return True
 
     def _fill(self):
@@ -127,14 +123,14 @@ class Reserve:
         with gathering(document) as steps:
             with await self._turn(document):
                 first_page.use_own_files(document)
-                page, follow = self._make({})
+                page = self._make()
             with await self._turn(document):
                 page.server_doc(document, title=self._title, location=False)
             left = True
             while left:
                 with await self._turn(document):
                     left = next(steps, steps) is not steps
-        return _Ready(document, context, follow)
+        return _Ready(document, context)
 
     def _blank(self):
         """Return an empty document, and the context that stands in for that of its session.
@@ -157,6 +153,12 @@ class Reserve:
 
 _offered = ContextVar("_offered", default=None)
 """The reserve from which a session that begins may take its page."""
+
+
+def _arguments(request, token):
+    """Return the arguments of the link by which somebody comes, as the session will have them."""
+    payload = get_token_payload(token) if token else {}
+    return payload.get("arguments", getattr(request, "arguments", None))
 
 
 def _document():

@@ -101,12 +101,11 @@ def opening(is_ahead):
 
     document, end = Document(), object()
     with gathering(document) as steps, set_curdoc(document):
-        page, follow = timed(lambda: app.assemble({}))
+        page = timed(app.build)
         timed(lambda: page.server_doc(document, location=False))
         if is_ahead:
             collections.deque(steps, maxlen=0)
             pieces.clear()
-            timed(lambda: follow({}))
         timed(document.to_json)
         document.on_change(events.append)
         while timed(lambda: step(steps, end)):

@@ -50,6 +50,14 @@ def test_only_departures_are_left_out_of_the_log(name, caplog):
     assert "without an exception" in caplog.text
 
 
+def test_messages_that_were_on_their_way_to_a_closed_page_are_left_out(caplog):
+    logger = logging.getLogger("panel.io.document")
+    logger.warning("Failed sending message as connection was closed")
+    assert caplog.text == ""
+    logger.warning("Failed sending message due to following error: no paint")
+    assert "no paint" in caplog.text
+
+
 def test_tasks_that_nobody_awaits_are_logged_alike(caplog):
     async def fail(error):
         asyncio.get_running_loop().call_exception_handler({"message": "a task failed", "exception": error})

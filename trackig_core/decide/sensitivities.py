@@ -121,9 +121,10 @@ class Sensitivity:
         share, unit = 100 * self.changes[first], UNITS[figure]
         if figure == DEFLECTION:
             down, up, unit = 1e3 * down, 1e3 * up, "mm"
+        whose = "Of the track's own numbers, the" if given else "The"
         rest = given and f" It depends more on {spoken(given)}, which no supplier of a track chooses."
         return (
-            f"The {WORDS[figure]} depends most on {spoken(first)}: {share:.3g} % less changes it by "
+            f"{whose} {WORDS[figure]} depends most on {spoken(first)}: {share:.3g} % less changes it by "
             f"{change_words(down)} {unit}, {share:.3g} % more by {change_words(up)} {unit}.{rest}"
         )
 

@@ -73,10 +73,11 @@ class WhatMatters(Asked):
         quantity, _, unit = words.partition(", ")
         less, more = scale * result.differences[first][result.fields.index(name)]
         change, label = f"{100 * result.changes[name]:.3g} %", ASKED_FIELDS[name].marked.lower()
+        whose = "Of the track's own numbers, the" if given else "The"
         more_so = given and ASKED_FIELDS[given].marked.lower()
         rest = given and f" It depends more on the {more_so}, which no supplier of a track chooses."
         return (
-            f"The {quantity.lower()} depends most on the {label}: {change} less changes it "
+            f"{whose} {quantity.lower()} depends most on the {label}: {change} less changes it "
             f"by {formats.change_text(less)} {unit}, {change} more by {formats.change_text(more)} {unit}."
             f"{rest}"
         )

@@ -257,6 +257,7 @@ def test_differences_are_those_of_exact_solutions(specification):
     assert found.ranked("margin")[0] in str(found).replace(" ", "_")
     own = next(name for name in found.ranked("margin") if name not in GIVEN)
     assert f"depends most on {own.replace('_', ' ')}: 10 % less" in str(found)
+    assert str(found).startswith("Of the track's own numbers, the ")
     # of the loaded track's mass, the wheel is nearly all
     assert found.ranked("loaded_track")[0] == "wheel_mass"
     assert found.first("loaded_track") == ("fastener_spacing", "wheel_mass")

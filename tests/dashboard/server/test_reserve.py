@@ -11,6 +11,7 @@ import pytest
 from bokeh.application.handlers.document_lifecycle import DocumentLifecycleHandler
 from bokeh.document import Document
 from bokeh.server.contexts import ApplicationContext
+from bokeh.util.token import generate_jwt_token
 from panel.io.application import build_single_handler_application
 from panel.io.state import set_curdoc, state
 from tornado.ioloop import IOLoop
@@ -64,15 +65,15 @@ async def begin(context, name, **arguments):
 def marked(made, steps=("first", "second")):
     """Return what makes pages of a word, with steps that are done later; what is done is noted."""
 
-    def make(arguments):
+    def make():
         def later():
             for step in steps:
                 made.append(step)
                 yield
 
-        made.append(("page", dict(arguments)))
+        made.append("page")
         in_turns(later(), None)
-        return pn.pane.Markdown("made ahead"), lambda link: made.append(("link", dict(link)))
+        return pn.pane.Markdown("made ahead")
 
     return make
 
@@ -87,7 +88,7 @@ def test_a_page_is_made_step_by_step_before_anybody_asks(context):
         return made, pages.take()
 
     made, document = asyncio.run(story())
-    assert made == [("page", {}), "first", "second"] * 2
+    assert made == ["page", "first", "second"] * 2
     assert document.title == "ours"
     assert "made ahead" in str(document.to_json())
 
@@ -139,7 +140,7 @@ def test_what_is_taken_is_made_up_for(context):
 
 
 def test_a_page_that_cannot_be_made_ahead_leaves_sessions_as_they_are(context, caplog):
-    def broken(_):
+    def broken():
         raise RuntimeError("no fonts")
 
     async def story():
@@ -161,7 +162,7 @@ def dashboard(context, monkeypatch):
     async def make():
         ours, pages = context(), Reserve(PACE)
         monkeypatch.setattr(reserve, "RESERVE", pages)
-        pages.serve(ours, app.assemble, app.TITLE, 2)
+        pages.serve(ours, app.build, app.TITLE, 2)
         await until(lambda: len(pages._ready) == 2)
         pages._size = 0
         return ours, pages
@@ -176,29 +177,37 @@ def boot_stiffness(document):
     return state["values"]["boot_stiffness"]
 
 
-def test_a_session_begins_with_the_page_that_is_ready_and_follows_its_link(dashboard):
+def test_a_session_begins_with_the_page_that_is_ready_unless_it_comes_by_a_link(dashboard):
     async def story():
         ours, pages = await dashboard()
-        ready = [each.document for each in pages._ready]
-        plain = await begin(ours, "plain")
+        ready = pages._ready[0].document
         linked = await begin(ours, "linked", boot_stiffness=[b"33.5"], tab=[b"track"])
-        third = await begin(ours, "third")
-        documents = [each.document for each in (plain, linked, third)]
+        plain = await begin(ours, "plain")
+        documents = [each.document for each in (linked, plain)]
         found = [boot_stiffness(each) for each in documents]
         titles = [each.title for each in documents]
         curves = [each.get_model_by_name("insertion_gain") is not None for each in documents]
+        told = plain.document in pn.state._onload
         counted = sessions.count()
         await ours._cleanup_sessions(-1)
-        return ready == documents[:2], found, titles, curves, counted
+        return documents[1] is ready, found, titles, curves, told, counted
 
-    was_ready, found, titles, curves, counted = asyncio.run(story())
+    was_ready, found, titles, curves, told, counted = asyncio.run(story())
     assert was_ready
-    assert found[1] == 33.5
-    assert found[0] == found[2] != 33.5
-    assert titles == [app.TITLE] * 3
-    # the third is made while it waits, part by part
-    assert curves == [True, True, False]
-    assert counted == 3
+    assert found[0] == 33.5 != found[1]
+    assert titles == [app.TITLE] * 2
+    # the first is made while it waits, part by part
+    assert curves == [False, True]
+    # the browser is prepared for what it is given whole
+    assert told
+    assert counted == 2
+
+
+def test_arguments_are_those_of_the_page_s_request():
+    token = generate_jwt_token("a session", extra_payload={"arguments": {"tab": [b"track"]}})
+    assert reserve._arguments(SimpleNamespace(arguments={}), token)
+    plain = generate_jwt_token("a session", extra_payload={"arguments": {}})
+    assert not reserve._arguments(SimpleNamespace(arguments={"tab": [b"track"]}), plain)
 
 
 def test_a_page_that_was_ready_is_let_go_of(dashboard):

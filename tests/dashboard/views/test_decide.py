@@ -2,6 +2,7 @@
 
 import csv
 import dataclasses
+import html
 import json
 import re
 from types import SimpleNamespace
@@ -159,6 +160,7 @@ def test_what_matters_is_drawn_as_computed(session):
     assert (starred("wheel_mass"), starred("block_mass")) == ("Unsprung wheel mass *", "Block mass")
     own, given = expected.first("margin")
     assert f"depends most on the {FIELDS[own].label.lower()}: 10 % less" in view.sentence.object
+    assert "Of the track's own numbers, the " in html.unescape(view.sentence.object)
     assert (given == "wheel_mass") == (
         "more on the unsprung wheel mass (vehicle), which" in view.sentence.object
     )
@@ -486,7 +488,7 @@ def test_an_opened_answer_is_listed_and_a_false_one_is_found_out(session):
     session.do(session.snapshot.open, text)
     assert session.snapshot.answers.kept == (forged,)
     ((_, row),) = session.view.kept.rows
-    assert forged.sentence[:20] in row.words.object
+    assert forged.sentence[:20] in html.unescape(row.words.object)
     session.do(row.again.param.trigger, "clicks")
     assert "Other figures came out: it was computed with numpy 1.0, now " in row.outcome.object
     assert session.snapshot.answers.pages == {}
