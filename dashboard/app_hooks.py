@@ -42,8 +42,15 @@ def on_server_loaded(server_context):
         return
     # a page that is made of the opening picture asks for no other; the first prepares classes and scripts
     loop = IOLoop.current()
-    serve = partial(RESERVE.serve, server_context.application_context, build, TITLE, sessions.ahead())
+    serve = partial(
+        RESERVE.serve, server_context.application_context, opening_picture, build, TITLE, sessions.ahead()
+    )
     opening.future.add_done_callback(lambda _: loop.add_callback(serve))
+
+
+def opening_picture():
+    """Return the future of the picture that pages open with: solved anew where others have pushed it out."""
+    return shared_store().request((tig.PRESETS[OPENING_PRESET], AT_REST)).future
 
 
 def on_session_destroyed(session_context):

@@ -46,17 +46,21 @@ class Reserve:
 
     def __init__(self, pace):
         self._pace = pace
-        self._make, self._context, self._title, self._size = None, None, "", 0
+        self._prepare = self._make = self._context = None
+        self._title, self._size = "", 0
         self._ready, self._taken = deque(), weakref.WeakKeyDictionary()
         self._task = None
 
-    def serve(self, application_context, make, title, size):
+    def serve(self, application_context, prepare, make, title, size):
         """Have the sessions of an application begin with pages that are ready.
 
         Parameters
         ----------
         application_context : bokeh.server.contexts.ApplicationContext
             The application.
+        prepare : callable
+            Returns a future (concurrent.futures.Future) of what a page is made of, such as its first picture:
+            one that came later could be lost as well.
         make : callable
             Returns a page.
         title : str
@@ -64,7 +68,8 @@ class Reserve:
         size : int
             Pages that are ready.
         """
-        self._make, self._context, self._title, self._size = make, application_context, title, size
+        self._prepare, self._make = prepare, make
+        self._context, self._title, self._size = application_context, title, size
         plain = application_context.create_session_if_needed
 
         async def create_session_if_needed(session_id, request=None, token=None):
@@ -119,6 +124,7 @@ class Reserve:
                 return
 
     async def _make_page(self):
+        await asyncio.wrap_future(self._prepare())
         document, context = self._blank()
         with gathering(document) as steps:
             with await self._turn(document):

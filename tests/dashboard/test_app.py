@@ -199,4 +199,4 @@ def test_pages_are_made_ahead_of_the_opening_picture(monkeypatch):
         await until_at_rest()
 
     asyncio.run(solve_the_first())
-    assert served == [("ours", app.build, app.TITLE, 3)]
+    assert served == [("ours", app_hooks.opening_picture, app.build, app.TITLE, 3)]

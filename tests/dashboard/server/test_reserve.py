@@ -3,6 +3,7 @@
 import asyncio
 import gc
 import weakref
+from concurrent.futures import Future
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -17,6 +18,7 @@ from panel.io.state import set_curdoc, state
 from tornado.ioloop import IOLoop
 
 from dashboard import app
+from dashboard.app_hooks import opening_picture
 from dashboard.compute import pacing
 from dashboard.compute.document import in_turns
 from dashboard.compute.pacing import PACE, Pace
@@ -62,6 +64,13 @@ async def begin(context, name, **arguments):
     return await context.create_session_if_needed(name, request)
 
 
+def at_hand():
+    """Return the future of a picture that is there."""
+    future = Future()
+    future.set_result("a picture")
+    return future
+
+
 def marked(made, steps=("first", "second")):
     """Return what makes pages of a word, with steps that are done later; what is done is noted."""
 
@@ -81,7 +90,7 @@ def marked(made, steps=("first", "second")):
 def test_a_page_is_made_step_by_step_before_anybody_asks(context):
     async def story():
         pages, made = Reserve(Pace()), []
-        pages.serve(context(), marked(made), "ours", 2)
+        pages.serve(context(), at_hand, marked(made), "ours", 2)
         assert made == []
         await until(lambda: made.count("second") == 2)
         await until(lambda: len(pages._ready) == 2)
@@ -93,12 +102,25 @@ def test_a_page_is_made_step_by_step_before_anybody_asks(context):
     assert "made ahead" in str(document.to_json())
 
 
+def test_a_page_waits_for_its_picture(context):
+    async def story():
+        picture, made = Future(), []
+        pages = Reserve(Pace())
+        pages.serve(context(), lambda: picture, marked(made), "ours", 1)
+        await asyncio.sleep(3 * pacing.IDLE)
+        assert made == []
+        picture.set_result("a picture")
+        await until(lambda: made)
+
+    asyncio.run(story())
+
+
 def test_nothing_is_made_while_somebody_works(context):
     async def story():
         pace, made, page = Pace(), [], Document()
         pages = Reserve(pace)
         pace.hear(page)
-        pages.serve(context(), marked(made), "ours", 1)
+        pages.serve(context(), at_hand, marked(made), "ours", 1)
         for _ in range(20):
             pace.hear(page)
             await asyncio.sleep(pacing.IDLE / 10)
@@ -112,7 +134,7 @@ def test_steps_wait_for_who_begins_to_work_meanwhile(context):
     async def story():
         pace, made, page = Pace(), [], Document()
         pages = Reserve(pace)
-        pages.serve(context(), marked(made, range(50)), "ours", 1)
+        pages.serve(context(), at_hand, marked(made, range(50)), "ours", 1)
         await until(lambda: 3 in made)
         pace.hear(page)
         done = len(made)
@@ -129,7 +151,7 @@ def test_steps_wait_for_who_begins_to_work_meanwhile(context):
 def test_what_is_taken_is_made_up_for(context):
     async def story():
         pages = Reserve(Pace())
-        pages.serve(context(), marked([]), "ours", 1)
+        pages.serve(context(), at_hand, marked([]), "ours", 1)
         await until(lambda: pages._ready)
         first = pages.take()
         assert not pages._ready
@@ -145,7 +167,7 @@ def test_a_page_that_cannot_be_made_ahead_leaves_sessions_as_they_are(context, c
 
     async def story():
         pages, ours = Reserve(Pace()), context()
-        pages.serve(ours, broken, "ours", 1)
+        pages.serve(ours, at_hand, broken, "ours", 1)
         await until(lambda: "could not be made ahead" in caplog.text)
         session = await begin(ours, "one")
         title = session.document.title
@@ -162,7 +184,7 @@ def dashboard(context, monkeypatch):
     async def make():
         ours, pages = context(), Reserve(PACE)
         monkeypatch.setattr(reserve, "RESERVE", pages)
-        pages.serve(ours, app.build, app.TITLE, 2)
+        pages.serve(ours, opening_picture, app.build, app.TITLE, 2)
         await until(lambda: len(pages._ready) == 2)
         pages._size = 0
         return ours, pages
