@@ -48,7 +48,7 @@ class Reserve:
         self._pace = pace
         self._prepare = self._make = self._context = None
         self._title, self._size = "", 0
-        self._ready, self._taken = deque(), weakref.WeakKeyDictionary()
+        self._ready, self._taken = deque(), weakref.WeakSet()
         self._task = None
 
     def serve(self, application_context, prepare, make, title, size):
@@ -88,7 +88,7 @@ class Reserve:
         if not self._ready or sessions.is_full():
             return Document()
         ready = self._ready.popleft()
-        self._taken[ready.document] = ready
+        self._taken.add(ready.document)
         self._fill()
         return ready.document
 
@@ -105,8 +105,9 @@ class Reserve:
         bool
             Whether it was.
         """
-        if document is None or self._taken.pop(document, None) is None:
+        if document not in self._taken:
             return False
+        self._taken.discard(document)
         init_doc(document)
         return True
 

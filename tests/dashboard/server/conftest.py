@@ -8,6 +8,7 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -82,3 +83,9 @@ def served(tmp_path_factory):
     words = ("--prefix", "/tools", "--processes", "2", "--allow-origin", "trackig.example")
     with serving(tmp_path_factory.mktemp("served"), *words) as running:
         yield running
+
+
+async def begin(context, name, **arguments):
+    """Make a session as the socket does, and return it."""
+    request = SimpleNamespace(path="/dashboard/ws", arguments=arguments, cookies={}, headers={})
+    return await context.create_session_if_needed(name, request)

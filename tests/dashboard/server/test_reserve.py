@@ -24,6 +24,7 @@ from dashboard.compute.document import in_turns
 from dashboard.compute.pacing import PACE, Pace
 from dashboard.server import reserve, sessions
 from dashboard.server.reserve import Reserve
+from tests.dashboard.server.conftest import begin
 from tests.waiting import WAIT
 
 DASHBOARD = Path(app.__file__).parent
@@ -56,12 +57,6 @@ def context():
         return ApplicationContext(application, io_loop=IOLoop.current(), url="/dashboard")
 
     return make
-
-
-async def begin(context, name, **arguments):
-    """Make a session as the socket does, and return it."""
-    request = SimpleNamespace(path="/dashboard/ws", arguments=arguments, cookies={}, headers={})
-    return await context.create_session_if_needed(name, request)
 
 
 def at_hand():

@@ -18,6 +18,7 @@ from tornado.ioloop import IOLoop
 from dashboard.compute.pacing import PACE
 from dashboard.server import sessions
 from dashboard.server.serving import SocketHandler
+from tests.dashboard.server.conftest import begin
 
 DASHBOARD = Path(__file__).parents[3] / "dashboard"
 
@@ -33,12 +34,6 @@ def application():
     made = build_single_handler_application(DASHBOARD)
     made.add(DocumentLifecycleHandler())
     return made
-
-
-async def begin(context, name):
-    """Make a session as the socket does, and return it."""
-    request = SimpleNamespace(path="/dashboard/ws", arguments={}, cookies={}, headers={})
-    return await context.create_session_if_needed(name, request)
 
 
 def test_a_session_that_no_browser_drew_is_let_go_of(application):
