@@ -117,14 +117,22 @@ class Exchange(Scripted):
         self._changed = False
         self.note()
         snapshot.watch(self._follow)
+        snapshot.param.watch(lambda *_: self.note(), "tab")
         self._shelf.param.watch(self._remember, "catalogue")
 
     def note(self):
-        """Have the browser keep what there is now."""
-        self.kept = [self._snapshot.query(), self._snapshot.study().to_toml()]
+        """Have the browser keep what there is now.
+
+        Returns
+        -------
+        bool
+            Whether that is something else than it kept.
+        """
+        before, self.kept = self.kept, [self._snapshot.query(), self._snapshot.study().to_toml()]
+        return self.kept != before
 
     async def _follow(self, *_):
-        """Note what is kept, once changes rest."""
+        """Note what is kept, once changes rest; the tab is noted at once."""
         self._changed = True
         if self._waiting:
             return
@@ -188,6 +196,10 @@ class Exchange(Scripted):
                     self._key_listeners[figure](key, shift)
 
     def _tell_of_link(self, copied):
+        if self.note():
+            # the address bar, which was copied, had not followed the last changes yet
+            self._send_msg({"kind": "copy"})
+            return
         left_out = self._snapshot.left_out
         if not copied:
             notify("warning", NOT_COPIED)

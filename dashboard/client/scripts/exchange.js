@@ -211,6 +211,7 @@ export function render({model, view}) {
   })
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
+    if (message.kind === "copy") copyLink(model)
     if (message.kind === "introduce") answer()
     if (message.kind === "reveal") reveal(view.model.document, message.name)
     if (message.kind === "remember") remember(message.data)

@@ -79,6 +79,15 @@ def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatc
     asyncio.run(run())
 
 
+def test_the_address_follows_the_tab_at_once(session):
+    async def run():
+        exchange = Exchange(session.snapshot)
+        session.snapshot.tab = "keep"
+        assert "tab=keep" in exchange.kept[0], "a page that is loaded anew opens where it was"
+
+    asyncio.run(run())
+
+
 def test_what_a_browser_remembers_is_restored(session, exchange, sent, summary):
     other = type(session)(summary)
     other.assessment.specification = LIMITS
@@ -171,7 +180,7 @@ def test_a_remembered_catalogue_that_is_none_is_forgotten(exchange, sent, told, 
     assert sent == [{"kind": "remember", "data": ""}]
 
 
-def test_a_copied_link_says_what_needs_the_study_file(session, exchange, told):
+def test_a_copied_link_is_the_newest_and_says_what_needs_the_study_file(session, exchange, sent, told):
     exchange.handle_message({"kind": "copied", "data": True})
     assert told == [("success", exchange_module.COPIED)]
     curve = tig.StiffnessCurve([(5, 20e6, 0.1), (500, 30e6, 0.2)])
@@ -183,6 +192,10 @@ def test_a_copied_link_says_what_needs_the_study_file(session, exchange, told):
         exchange.handle_message({"kind": "copied", "data": True})
 
     asyncio.run(run())
+    assert told == [], "the address bar had not followed yet"
+    assert sent == [{"kind": "copy"}]
+    exchange.handle_message({"kind": "copied", "data": True})
     ((kind, words),) = told
     assert kind == "warning"
     assert "only the study file holds: the boot stiffness. " in words
+    assert sent == [{"kind": "copy"}], "nothing has changed since"
