@@ -16,6 +16,7 @@ from pathlib import Path
 
 import panel as pn
 import param
+from panel.io.state import set_curdoc
 
 from dashboard.compute.document import on_next_tick, one_message
 from dashboard.compute.pacing import Pace
@@ -76,6 +77,11 @@ class Scripted(pn.custom.JSComponent):
         handle_message = partial(on_next_tick, pn.state.curdoc, partial(self._handle_in_turn, message))
         # what changes before the page says that it is loaded would not reach it
         handle_message() if pn.state.loaded else pn.state.onload(handle_message)
+
+    def _process_bokeh_event(self, doc, event):
+        # Panel would note that it is busy, and look through all that is, three times
+        with set_curdoc(doc):
+            self._process_event(event)
 
     def _handle_in_turn(self, message, document):
         try:

@@ -7,7 +7,8 @@ exception. A page opens with 20,000 such questions: a quarter of its processor t
 
 Each message begins with the references to all models of the page, made anew; each value that is converted has
 its property's type put into words first, in case it were refused; and each of Panel's callbacks has its
-signature looked through. Each page is searched for faults of its layout, which is what tests are for.
+signature looked through, when it is handed over and at each event. Each page is searched for faults of its
+layout, which is what tests are for.
 """
 
 from functools import cached_property, partial
@@ -28,10 +29,14 @@ _gather = HasProps._overridden_defaults.__func__
 _ask_parts = ParameterizedProperty._may_have_unstable_default
 _put_into_words = ParameterizedProperty.__str__
 _check_signature = callback_manager._check_callback
+_count_arguments = callback_manager._nargs
 _refer = Model.ref.fget
 
 _checked = set()
 """Methods, with what they are given beforehand and what they are called with, whose signature fits."""
+
+_counted = {}
+"""Arguments that are wanting, by method and what it is given beforehand."""
 
 
 def _overridden_defaults(cls):
@@ -63,14 +68,28 @@ def _words(self):
     return found
 
 
+def _given_beforehand(callback):
+    """Return which method it is and how much it was given beforehand, or None for what is no such method."""
+    if isinstance(callback, partial) and hasattr(callback.func, "__func__"):
+        return (callback.func.__func__, len(callback.args), *callback.keywords)
+    return None
+
+
 def _check_callback(callback, fargs, what="Callback functions"):
-    if not (isinstance(callback, partial) and hasattr(callback.func, "__func__")):
+    kind = _given_beforehand(callback)
+    if kind is None or (*kind, *fargs) not in _checked:
         _check_signature(callback, fargs, what)
-        return
-    known = (callback.func.__func__, len(callback.args), *callback.keywords, *fargs)
-    if known not in _checked:
-        _check_signature(callback, fargs, what)
-        _checked.add(known)
+        if kind is not None:
+            _checked.add((*kind, *fargs))
+
+
+def _nargs(callback):
+    kind = _given_beforehand(callback)
+    if kind is None:
+        return _count_arguments(callback)
+    if kind not in _counted:
+        _counted[kind] = _count_arguments(callback)
+    return _counted[kind]
 
 
 def install():
@@ -81,6 +100,7 @@ def install():
     ParameterizedProperty._may_have_unstable_default = _may_have_unstable_default
     ParameterizedProperty.__str__ = _words
     callback_manager._check_callback = _check_callback
+    callback_manager._nargs = _nargs
     settings.perform_document_validation = False
     Model.ref = cached_property(_refer)
     Model.ref.__set_name__(Model, "ref")

@@ -86,7 +86,7 @@ class Explore(Tab):
         self.insertion_gain.name_axis(gain_axis(self._definition, self._assessment.current.design))
         self._say_reference()
         words = bands_text(self._definition.bands)
-        self.bands_words.param.update(object=f"{words[:1].upper()}{words[1:]}.", visible=bool(words))
+        say(self.bands_words, f"{words[:1].upper()}{words[1:]}." if words else "")
         if self._assessment.current.summary is None:
             return
         if results is not self._drawn:
@@ -100,14 +100,15 @@ class Explore(Tab):
         wanted = self._definition.reference
         yielding = [name for name, each in designs.items() if self._definition.reference_of(each) != wanted]
         words = f"{html.escape(', '.join(yielding))}: {YIELDING_WORDS}" if yielding else ""
-        self.reference_words.param.update(object=words, visible=bool(words))
+        say(self.reference_words, words)
 
     def _show_forces(self):
         current = self._assessment.current
         if current.summary.time is not None:  # an exact curve leaves the last force as it is, dimmed
             self.force.show(current, self._assessment.shown_pins)
-        words, variant = FIDELITY_CHIPS[current.summary.solution.fidelity]
-        self.fidelity.param.update(label=words, variant=variant, visible=True)
+        # one by one: all at once, param would look through all that a chip has
+        self.fidelity.label, self.fidelity.variant = FIDELITY_CHIPS[current.summary.solution.fidelity]
+        self.fidelity.visible = True
 
     def _show_gain(self):
         specification = self._assessment.in_force
@@ -179,6 +180,12 @@ class Explore(Tab):
         frequencies.objects = [caption("Natural frequencies and standing load", ""), self.frequencies]
         force.objects = [caption(FORCE_TITLE, FORCE_WORDS), force_pane]
         yield
+
+
+def say(place, text):
+    """Show words in their place, which takes no room while there are none."""
+    place.object = text
+    place.visible = bool(text)
 
 
 FIDELITY_CHIPS = {

@@ -42,8 +42,8 @@ class Status(Viewer):
         outcome = self._outcome
         self.text.object = status_html(outcome)
         long = outcome.busy and outcome.progress is not None
-        self.progress.param.update(value=round(100 * (outcome.progress or 0)), visible=long)
-        self.stop.visible = long
+        self.progress.value = round(100 * (outcome.progress or 0))
+        self.progress.visible = self.stop.visible = long
         self.solve.visible = bool(outcome.problem) and not outcome.busy
 
     def __panel__(self):

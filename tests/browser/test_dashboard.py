@@ -146,10 +146,10 @@ def test_dragging_a_slider_ends_on_the_paper_run_of_its_last_value(published_das
 
 
 def test_pictures_follow_the_hand_in_order(dashboard):
-    """Each picture is of the position that the slider was at, or of one before: a stale frame would step back.
+    """No picture is of a position that the slider had left before that of the picture before.
 
-    Exact curves and paper's runs of two positions differ by more than twice of what a live run may be wrong by:
-    a picture shows which position it is of.
+    Exact curves and paper's runs of two positions differ by more than twice of what a live run may be wrong
+    by: a picture shows which position it is of.
     """
     dashboard.evaluate(WATCH)
     drag(dashboard, "Boot stiffness, kN/mm", 30, pause=30, pictures=8)

@@ -7,7 +7,8 @@ import pytest
 from bokeh.core.has_props import HasProps
 from bokeh.core.property.bases import ParameterizedProperty
 from bokeh.core.property.descriptors import PropertyDescriptor
-from bokeh.models import ColumnDataSource, LinearAxis, Model, Plot
+from bokeh.events import ButtonClick
+from bokeh.models import Button, ColumnDataSource, LinearAxis, Model, Plot
 from bokeh.settings import settings
 from bokeh.util import callback_manager
 
@@ -20,6 +21,7 @@ REPLACED = (
     (ParameterizedProperty, "_may_have_unstable_default"),
     (ParameterizedProperty, "__str__"),
     (callback_manager, "_check_callback"),
+    (callback_manager, "_nargs"),
     (Model, "ref"),
 )
 
@@ -90,6 +92,26 @@ def test_callbacks_that_do_not_fit_are_refused_still(install):
             plot.on_change("name", watcher.note)
         with pytest.raises(ValueError, match="must have signature"):
             plot.on_change("name", partial(watcher.note, "page", "attr"))
+
+
+def test_callbacks_get_the_event_that_they_ask_for(install):
+    class Watcher:
+        def __init__(self):
+            self.noted = []
+
+        def note(self, page, event=None):
+            self.noted.append((page, event))
+
+        def note_event(self, page, event):
+            self.noted.append((page, event))
+
+    install()
+    for watcher in (Watcher(), Watcher()):
+        button = Button()
+        button.on_event(ButtonClick, partial(watcher.note, "a"), partial(watcher.note_event, "b"))
+        click = ButtonClick(button)
+        button._trigger_event(click)
+        assert watcher.noted == [("a", None), ("b", click)]
 
 
 def test_models_are_referred_to_by_their_identity(install):
