@@ -393,6 +393,8 @@ li svg {{ align-self: center; }}
 .complies {{ color: {COMPLIES_TEXT}; font-weight: 700; }}
 .fails {{ color: {FAILS_TEXT}; font-weight: 700; }}
 .open {{ font-weight: 700; overflow-wrap: anywhere; }}
+.refused {{ font-size: 20px; font-weight: 700; color: {FAILS_TEXT}; margin-bottom: 6px; }}
+.before li {{ font-size: 15px; }}
 """
 
 QUANTITIES_CSS = f"""

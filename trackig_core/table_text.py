@@ -46,6 +46,9 @@ _NOTHING = {"", ".", "..", "...", "…", "/", "n/a", "na", "n.a.", "k.a.", "k. a
 LINE_ENDS = re.compile("\r\n|[\r\n\u2028\u2029]")
 """What ends a line of a file."""
 
+_ROW_ENDS = (re.compile(";"), re.compile(r",\s"))
+"""What may end the rows of a table that is written in one line."""
+
 _DASHES = re.compile("[-:\u2010-\u2015\u2212_]*")
 
 _LIKE_A_NUMBER = re.compile(r"[-+.,\u2010-\u2015\u2212\u00ad]*\d")
@@ -140,6 +143,8 @@ def read_cells(data: str | bytes, undecided: str | None = None) -> list[Row]:
         If the data are no text, or too much of it.
     """
     lines = _lines(decoded(data))
+    if len(lines) == 1:
+        lines = _rows_of(*lines[0])
     separator = _separator(lines[:SAMPLE])
     count = sum(len(line.split(separator or None)) for _, line in lines)
     if count > MOST_CELLS:
@@ -204,6 +209,22 @@ def _lines(text: str) -> list[tuple[int, str]]:
         for number, line in enumerate(lines, start=1)
         if line.strip(" \t;,|") and not re.match(r'[ \t"]*#|sep=.$', line)
     ]
+
+
+def _rows_of(number: int, line: str) -> list[tuple[int, str]]:
+    """Return the rows that a lone line holds, such as ``31.5 3; 63 10``; as a rule it is one itself."""
+    for end in _ROW_ENDS:
+        rows = [(number, part) for part in end.split(line) if part.strip()]
+        numbers = [_numbers_alone(row) for row in rows]
+        if len(rows) > 1 and min(numbers) == max(numbers) > 1:
+            return rows
+    return [(number, line)]
+
+
+def _numbers_alone(row: tuple[int, str]) -> int:
+    """Return how many numbers a row is made of, none where it holds anything else."""
+    cells = [parsed(cell, ",") for cell in next(_split([row], _separator([row])))]
+    return len(cells) if all(cell.value is not None for cell in cells) else 0
 
 
 def _separator(lines: list[tuple[int, str]]) -> str:

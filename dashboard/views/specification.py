@@ -67,8 +67,11 @@ class SpecificationView(Tab):
         if not self.in_sight:
             return
         verdicts = verdicts_html(self._assessment.results, self._assessment.specification)
-        refused = self.editor.refused and f'<p role="status" class="open">{html.escape(REFUSED)}</p>'
-        self.verdict.object = verdicts + refused
+        if self.editor.refused:
+            there = self._assessment.specification is not None
+            words = html.escape(f"{REFUSED} {STANDS}" if there else REFUSED)
+            verdicts = f'<p role="status" class="refused">{words}</p><div class="before">{verdicts}</div>'
+        self.verdict.object = verdicts
         self.editor.grid.designs = [_design(each) for each in self._assessment.shown]
         self.deflection.show()
 
@@ -101,7 +104,9 @@ class SpecificationView(Tab):
         )
 
 
-REFUSED = "What was given last was not taken, see below: it is not judged."
+REFUSED = "What was given last was not taken: see below why."
+
+STANDS = "The specification before it is still in force, and this is its verdict:"
 
 QUESTION = (
     "Answer this before there is a verdict. "

@@ -448,7 +448,8 @@ def _are_ascending_bands(cells: Sequence[Cell]) -> bool:
 def _frequencies(table: Table, quantity: Quantity) -> Column:
     """Return the column that holds the frequencies."""
     if len(table.columns) < 2:
-        message = f"no band has a value: give {quantity.row}"
+        found = "one column is found" if table.columns and table.columns[0].cells else "no band has a value"
+        message = f"{found}: give {quantity.row}"
         raise quantity.error(message)
     named = [each for each in table.columns if each.is_frequency]
     several = [each for each in named if _are_bands(each)] or named

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import trackig_core as tig
+from trackig_core import table_text, typed_tables
 from trackig_core.levels.specification import (
     CALLED_LOSS,
     GAIN,
@@ -255,6 +256,35 @@ def test_frequencies_and_levels_in_turn_on_one_line_are_pairs(line):
     reading = tig.Specification.read(line)
     assert reading.table.points == PAIRS.points
     assert "the line is read as frequency and level in turn" in reading.notes
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "63 0; 80 -3; 100 -4.5",
+        "63 0, 80 -3, 100 -4.5",
+        "63 0; 80 -3; 100 -4,5;",
+        "63: 0; 80: -3; 100: -4.5",
+        "63,0; 80,-3; 100,-4.5",
+        "63=0, 80=-3, 100=-4.5",
+        "63 Hz: <= 0 dB; 80 Hz: <= -3 dB; 100 Hz: <= -4.5 dB",
+        "63 Hz 0 dB, 80 Hz -3 dB, 100 Hz -4,5 dB",
+    ],
+)
+def test_rows_may_stand_in_one_line(line):
+    assert tig.Specification.read(line).table.points == PAIRS.points
+
+
+def test_rows_of_one_line_may_have_three_numbers():
+    data = "1 20 0.1; 63 25 0.15; 400 30 0.2"
+    columns = typed_tables.read_table(data).columns
+    assert [[*each.values] for each in columns] == [[1, 63, 400], [20, 25, 30], [0.1, 0.15, 0.2]]
+
+
+@pytest.mark.parametrize("line", ["1 000; 2 000", "63; -3", "Hz 31.5 63; dB 3 10", "63 0; 80", "a 1; b 2"])
+def test_a_line_whose_parts_are_no_rows_of_numbers_is_one_row(line):
+    assert {cell.line for row in table_text.read_cells(line) for cell in row} == {1}
+    assert len(table_text.read_cells(line)) == 1
 
 
 @pytest.mark.parametrize(

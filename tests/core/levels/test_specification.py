@@ -79,6 +79,7 @@ def test_files_are_read_as_people_write_them(data):
         ("8,1\n\n7.94,2\n", 3, 1, "the band 8 Hz stands in line 1 already"),
         ("8,1\n31,5,-3,5\n", 2, 3, "decimal commas"),
         ("8;1\n10;1.234,5\n", 2, 2, "limit 1234.5"),
+        ("31.5\n63\n", None, None, "one column is found: give a line per band, frequency in Hz and limit"),
         ("8,1\n10,<script>alert(1)</script>\n", 2, 2, "<script>"),
         ("8,1\n10," + "9" * 900 + "\n", 2, 2, "limit '999"),
         ("8,1\n10," + "9" * 5000 + "\n", 2, None, "at most 1000 a line"),
@@ -95,7 +96,7 @@ def test_wrong_files_name_line_and_column(text, line, column, words):
     assert (caught.value.line, caught.value.column) == (line, column)
     assert words in message
     place = f"line {line}" + (f", column {column}" if column else "")
-    assert message.startswith(f"{place}: " if line else "no band")
+    assert message.startswith(f"{place}: " if line else words)
     assert len(message) < 250
 
 
