@@ -96,9 +96,13 @@ def add_commands(commands, shell):
         add(partial(_command, commands, shell))
 
 
+CURVES = "Answers are of exact curves; the verdict of check, on the paper's run, may differ by some 0.1 dB."
+
+
 def _command(commands, shell, name, kind_of=None, **words):
     """Add a command that asks a question of its name, or of the kind that its options make it."""
     kind_of = kind_of or (lambda _: name)
+    words["epilog"] = "\n\n".join([CURVES, *([words["epilog"]] if "epilog" in words else [])])
     command = shell.add(commands, name, lambda options: _run(shell, kind_of(options), options), **words)
     shell.add_study(command)
     command.add_argument("--design", metavar="NAME", help="a pinned design, in place of the current one")

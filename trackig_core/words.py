@@ -7,13 +7,17 @@ import numpy as np
 from trackig_core.arrays import AnyArray, RealArray
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""))
-_PREFIXED = ("N", "N/m", "N s/m", "N m", "N m2")
+_PREFIXED = ("N", "N s/m", "N m", "N m2")
+_STIFFNESS = "N/m"
+_OF_SUPPORTS, _LEAST_OF_SUPPORTS = (1e6, "kN/mm"), 1e4
+"""Unit of stiffness that inputs and tables have, and from where on figures are given in it [N/m]."""
+
 _SMALL = {"m": (1e-3, "mm"), "s": (1e-3, "ms"), "m/N": (1e-9, "nm/N")}
 """Units that are too large for what is below a tenth of them, and what stands in."""
 
 
 def quantity(value: float, unit: str, figures: int = 4) -> str:
-    """Return a number with its unit, such as ``"10.85 MN/m"``.
+    """Return a number with its unit, such as ``"10.85 kN/mm"``.
 
     Parameters
     ----------
@@ -32,6 +36,10 @@ def quantity(value: float, unit: str, figures: int = 4) -> str:
     if unit in _PREFIXED:
         size, prefix = next((each for each in _PREFIXES if abs(value) >= each[0]), (1.0, ""))
         return f"{value / size:.{figures}g} {prefix}{unit}"
+    if unit == _STIFFNESS and abs(value) >= _LEAST_OF_SUPPORTS:
+        size, unit = _OF_SUPPORTS
+        value = value / size
+        figures = max(figures, len(f"{abs(value):.0f}"))
     if unit in _SMALL and abs(value) < 0.1:
         size, unit = _SMALL[unit]
         value = value / size

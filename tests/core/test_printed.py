@@ -106,17 +106,17 @@ def test_what_is_printed_is_what_was_computed(run, exact):
 
 def test_designs_print_all_that_they_have():
     assert str(BLOCK) == (
-        "pad stiffness 100 MN/m, pad loss factor 0.2, block mass 45 kg, boot stiffness 28 MN/m, boot loss "
+        "pad stiffness 100 kN/mm, pad loss factor 0.2, block mass 45 kg, boot stiffness 28 kN/mm, boot loss "
         "factor 0.2, fastener spacing 0.6 m, wheel mass 880 kg, rail 60 (60 kg/m and 6.38 MN m2), contact "
-        "stiffness 1.2 GN/m, stiffness frequency 50 Hz"
+        "stiffness 1200 kN/mm, stiffness frequency 50 Hz"
     )
     assert "axles at 0 and 2.1 m" in str(WHOLE)
-    assert "suspension (primary stiffness 1.2 MN/m, primary damping 10 kN s/m, bogie mass 750 kg" in str(
+    assert "suspension (primary stiffness 1.2 kN/mm, primary damping 10 kN s/m, bogie mass 750 kg" in str(
         WHOLE
     )
-    assert "ground (stiffness 3.2 GN/m, " in str(WHOLE)
+    assert "ground (stiffness 3200 kN/mm, " in str(WHOLE)
     measured = BLOCK.replace(boot_stiffness=CURVE, boot_loss_factor=None, pad_loss_factor=LOSS)
-    assert "boot stiffness (measured at 2 frequencies, 5 Hz to 50 Hz: 22 MN/m to 28 MN/m" in str(measured)
+    assert "boot stiffness (measured at 2 frequencies, 5 Hz to 50 Hz: 22 kN/mm to 28 kN/mm" in str(measured)
     assert "preload 30 kN" in str(measured)
     assert "pad_stiffness=100000000.0" in repr(BLOCK)
 
@@ -129,8 +129,10 @@ def test_limits_print_with_their_units():
 @pytest.mark.parametrize(
     ("value", "unit", "text"),
     [
-        (28e6, "N/m", "28 MN/m"),
-        (1.2e9, "N/m", "1.2 GN/m"),
+        (28e6, "N/m", "28 kN/mm"),
+        (1.23456e10, "N/m", "12346 kN/mm"),
+        (5e4, "N/m", "0.05 kN/mm"),
+        (500.0, "N/m", "500 N/m"),
         (-85e3, "N", "-85 kN"),
         (0.0, "N", "0 N"),
         (0.0012856, "m", "1.286 mm"),
@@ -140,7 +142,7 @@ def test_limits_print_with_their_units():
         (1.7e-8, "m/N", "17 nm/N"),
     ],
 )
-def test_quantities_have_a_prefix_where_figures_are_long(value, unit, text):
+def test_quantities_have_the_unit_of_the_field(value, unit, text):
     assert words.quantity(value, unit) == text
 
 

@@ -112,7 +112,7 @@ class FeasibleRanges(Mapping[str, Intervals]):
         return len(self.intervals)
 
     def sentence(self, field: str) -> str:
-        """Return where a field complies, in words, such as ``"boot stiffness at most 10.85 MN/m"``."""
+        """Return where a field complies, in words, such as ``"boot stiffness at most 10.85 kN/mm"``."""
         return f"{spoken(field)} {self._where(field)}"
 
     def _where(self, field: str) -> str:

@@ -216,7 +216,7 @@ def check_number(field: str, value: object) -> float:
 
 
 def amount(field: str, value: float, figures: int = 4) -> str:
-    """Return a value of a field with its unit, such as ``"10.85 MN/m"``.
+    """Return a value of a field with its unit, such as ``"10.85 kN/mm"``.
 
     Parameters
     ----------
@@ -246,7 +246,7 @@ def values_in_words(values: Mapping[str, object]) -> list[str]:
     Returns
     -------
     list of str
-        Such as ``["boot stiffness 28 MN/m"]``; what is no number says itself what it is,
+        Such as ``["boot stiffness 28 kN/mm"]``; what is no number says itself what it is,
         in brackets if that takes commas.
     """
     texts = {

@@ -70,7 +70,7 @@ def test_a_deflection_limit_makes_an_edge_where_the_rail_sinks_so_far():
     assert low == pytest.approx(11e6, rel=1e-4)
     assert high == SLIDER_RANGES["boot_stiffness"][1]
     assert found.deflection_limit == limit
-    assert "boot stiffness at least 11 MN/m" in str(found)
+    assert "boot stiffness at least 11 kN/mm" in str(found)
     # the specification's own limit, under a load of its own, is kept too
     points = specification.points
     lighter = tig.Specification(points, rail_deflection_limit=limit, wheel_load=42.5e3)
