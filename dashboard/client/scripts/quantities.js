@@ -300,7 +300,7 @@ class Quantity {
     this.chip.hidden = words === undefined
     this.track.hidden = this.frame.hidden = words !== undefined
     this.chip.textContent = words ?? ""
-    this.chip.setAttribute("aria-label", `${this.field.label}: ${words}`)
+    this.chip.setAttribute("aria-label", `${this.field.label}: ${words ?? ""}`)
   }
 
   draw() {
