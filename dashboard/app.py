@@ -249,7 +249,26 @@ def page(sidebar, status, main, browser, exchange):
     # the page would follow a flag that all sessions of the process share, and would never let go of it
     with edit_readonly(whole):
         whole.busy = Busy().param.value
+    whole._preprocess = partial(look_through, whole)
     return whole
+
+
+def look_through(whole, root, changed=None, old_models=None):
+    """Look through what was added to the page for callbacks in the browser, and not the whole page each time.
+
+    Parameters
+    ----------
+    whole : panel.viewable.Viewable
+        The page, looked through before it is shown.
+    root : bokeh.model.Model
+        Its model.
+    changed : panel.viewable.Viewable, optional
+        The part that something was added to.
+    old_models : list of bokeh.model.Model, optional
+        Models that the part had before.
+    """
+    part = whole if changed is None else changed
+    type(part)._preprocess(part, root, part, old_models)
 
 
 def report_error(error):

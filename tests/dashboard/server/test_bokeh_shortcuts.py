@@ -6,9 +6,22 @@ from functools import partial
 import pytest
 from bokeh.core.has_props import HasProps
 from bokeh.core.property.bases import ParameterizedProperty
-from bokeh.core.property.descriptors import PropertyDescriptor
+from bokeh.core.property.descriptors import PropertyDescriptor, UnsetValueError
+from bokeh.core.property.vectorization import Expr
 from bokeh.events import ButtonClick
-from bokeh.models import Button, ColumnDataSource, LinearAxis, Model, Plot
+from bokeh.model import model as model_module
+from bokeh.model import util as model_util
+from bokeh.model.util import collect_models
+from bokeh.models import (
+    Button,
+    ColumnDataSource,
+    CumSum,
+    CustomJS,
+    FixedTicker,
+    LinearAxis,
+    Model,
+    Plot,
+)
 from bokeh.settings import settings
 from bokeh.util import callback_manager
 
@@ -22,6 +35,9 @@ REPLACED = (
     (ParameterizedProperty, "__str__"),
     (callback_manager, "_check_callback"),
     (callback_manager, "_nargs"),
+    (PropertyDescriptor, "_get_default"),
+    (model_util, "visit_value_and_its_immediate_references"),
+    (model_module, "visit_value_and_its_immediate_references"),
     (Model, "ref"),
 )
 
@@ -68,6 +84,41 @@ def test_models_share_no_default_that_may_change(install):
     one.data["x"] = [1.0]
     assert dict(other.data) == {}
     assert Plot().x_range is not Plot().x_range
+
+
+def test_values_that_were_never_set_are_what_bokeh_finds(install):
+    def value(model, name):
+        try:
+            return without_identity(repr(getattr(model, name)))
+        except UnsetValueError:
+            return "unset"
+
+    def values():
+        made = [kind() for kind in (ColumnDataSource, LinearAxis, Plot, Button)]
+        return [{name: value(each, name) for name in sorted(each.properties() - {"id"})} for each in made]
+
+    before = values()
+    install()
+    assert values() == values() == before
+    button = Button(label="Set")
+    assert (button.label, Button().label) == ("Set", before[-1]["label"].strip("'"))
+
+
+def test_references_are_found_wherever_they_stand(install):
+    def found():
+        plots = [Plot() for _ in range(4)]
+        source = ColumnDataSource(
+            tags=[{"nested": [1, "x", None, True, (2.5, plots[0])]}, Expr(expr=CumSum())]
+        )
+        source.js_on_change("data", CustomJS(args={"one": plots[1]}))
+        held = [plots[2], (LinearAxis(ticker=FixedTicker()), {"a": plots[3]}), source]
+        return sorted(type(each).__name__ for each in collect_models(*held))
+
+    before = found()
+    install()
+    assert found() == before
+    assert before.count("Plot") == 4
+    assert {"CumSum", "CustomJS", "FixedTicker"} <= {*before}
 
 
 def test_types_are_told_as_bokeh_tells_them(install):
