@@ -3,7 +3,6 @@
 No session compiles anything; at a first start the page is there meanwhile, and says so.
 """
 
-import gc
 from functools import partial
 
 from panel.config import config
@@ -15,6 +14,7 @@ from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shar
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
 from dashboard.server import bokeh_shortcuts, first_page, sessions
+from dashboard.server.garbage import SWEEPER, sweep
 from dashboard.server.reserve import RESERVE
 from dashboard.server_log import leave_out_departures, leave_out_empty_places
 
@@ -35,8 +35,8 @@ def on_server_loaded(server_context):
     # here and not on a thread: an import that sessions run into half-way fails for them
     overlays.load()
     first_page.prepare(server_context.application_context, TITLE)
-    # what stays so far: looking through it for garbage would stop every session for 0.1 s now and then
-    gc.freeze()
+    SWEEPER.install()
+    sweep()
     if config.autoreload:
         # pages that are ready would be those of the code before it was edited
         return
@@ -51,6 +51,11 @@ def on_server_loaded(server_context):
 def opening_picture():
     """Return the future of the picture that pages open with: solved anew where others have pushed it out."""
     return shared_store().request((tig.PRESETS[OPENING_PRESET], AT_REST)).future
+
+
+def on_session_created(session_context):  # noqa: ARG001
+    """Have the objects of a new page set aside."""
+    SWEEPER.call()
 
 
 def on_session_destroyed(session_context):

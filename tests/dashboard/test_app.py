@@ -1,6 +1,7 @@
 """The whole in process: the page is made, it is apart from other sessions, and it never stays white."""
 
 import asyncio
+import gc
 import runpy
 from concurrent.futures import Future
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 from bokeh.core.validation.check import check_integrity
 from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from bokeh.document import Document
+from panel.io import document as panel_document
 from panel.util import edit_readonly
 
 import dashboard
@@ -168,6 +170,15 @@ class FakeStore:
         self.closed = True
 
 
+@pytest.fixture
+def own_garbage(monkeypatch):
+    """Have Panel look for garbage as ever after the test, and nothing set aside from it."""
+    monkeypatch.setattr(panel_document, "_garbage_collect", panel_document._garbage_collect)
+    yield
+    gc.unfreeze()
+
+
+@pytest.mark.usefixtures("own_garbage")
 def test_the_server_begins_with_the_opening_preset(monkeypatch):
     fake = FakeStore()
     begun, prepared = [], []
@@ -180,10 +191,13 @@ def test_the_server_begins_with_the_opening_preset(monkeypatch):
     assert prepared == [("ours", app.TITLE)]
     assert fake.requested[0] == (tig.PRESETS["booted-block-low-mass"], AT_REST)
     assert {design for design, _ in fake.requested} == set(tig.PRESETS.values())
+    assert panel_document._garbage_collect == app_hooks.SWEEPER.call
+    assert gc.get_freeze_count() > 0
     app_hooks.on_server_unloaded(None)
     assert fake.closed
 
 
+@pytest.mark.usefixtures("own_garbage")
 def test_pages_are_made_ahead_of_the_opening_picture(monkeypatch):
     fake, served = FakeStore(), []
     monkeypatch.setattr(app_hooks, "shared_store", lambda: fake)

@@ -1,7 +1,6 @@
 """Pages that are made ahead: when, for whom, and that nobody can tell them from others."""
 
 import asyncio
-import gc
 import weakref
 from concurrent.futures import Future
 from pathlib import Path
@@ -23,6 +22,7 @@ from dashboard.compute import pacing
 from dashboard.compute.document import in_turns
 from dashboard.compute.pacing import PACE, Pace
 from dashboard.server import reserve, sessions
+from dashboard.server.garbage import sweep
 from dashboard.server.reserve import Reserve
 from tests.dashboard.server.conftest import begin
 from tests.waiting import WAIT
@@ -240,7 +240,7 @@ def test_a_page_that_was_ready_is_let_go_of(dashboard):
 
     views = set(state._views)
     left = asyncio.run(come_and_go())
-    gc.collect()
+    sweep()
     assert [each() for each in left if each() is not None] == []
     assert set(state._views) == views
 

@@ -1,7 +1,6 @@
 """Sessions that end leave nothing behind, and there are never more than there is room for."""
 
 import asyncio
-import gc
 import weakref
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,6 +16,7 @@ from tornado.ioloop import IOLoop
 
 from dashboard.compute.pacing import PACE
 from dashboard.server import sessions
+from dashboard.server.garbage import sweep
 from dashboard.server.serving import SocketHandler
 from tests.dashboard.server.conftest import begin
 
@@ -50,7 +50,7 @@ def test_a_session_that_no_browser_drew_is_let_go_of(application):
 
     views = set(state._views)
     left = asyncio.run(come_and_go())
-    gc.collect()
+    sweep()
     assert [each() for each in left if each() is not None] == []
     assert set(state._views) == views
     assert sessions.count() == 0
