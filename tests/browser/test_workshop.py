@@ -261,14 +261,16 @@ def test_a_restarted_server_loses_nothing(chromium, serve, port, tmp_path):
             expect(page.get_by_role("listitem")).to_have_count(2)
             wait_for_link(page, block_mass="120", tab="specification")
             page.wait_for_function("() => sessionStorage.getItem('trackig').includes('ig_max_dB')")
+            wait_until_solved(page)
             before, told = page.url, verdicts(page)
             page.evaluate("() => { window.old = true }")
         expect(page.get_by_text("The connection to the server is lost")).to_be_visible()
         with serve(port, next(logs)):
             page.wait_for_function("() => window.old === undefined")
-            wait_until_solved(page)
             expect(page.get_by_role("textbox", name="Limit, dB, 63 Hz")).to_have_value("-3")
             expect(page.get_by_role("listitem")).to_have_count(2)
+            # an exact curve may stand in for the paper's run, whose margin is another by some 0.1 dB
+            wait_until_solved(page)
             assert page.url == before
             assert verdicts(page) == told
             open_tab(page, "Explore")
