@@ -114,6 +114,11 @@ class Quantity:
         """What a line of a table may be, with an example."""
         return f"a line per band, frequency in Hz and {self.name} in dB, such as 63 {self.example:g}"
 
+    @property
+    def nothing(self) -> str:
+        """Why a table is refused of which nothing can be read."""
+        return f"no frequency with its {self.name} is found: give {self.row}"
+
     def read(self, text: str) -> float | None:
         """Return the level that was typed for one band.
 
@@ -324,7 +329,7 @@ def _checked(
             raise quantity.error(message, line, first, counted)
         found[band] = line, verified
     if not found:
-        raise quantity.error(f"no band has a value: give {quantity.row}")
+        raise quantity.error(quantity.nothing)
     return tuple((NOMINAL[band], found[band][1]) for band in sorted(found))
 
 
@@ -448,9 +453,7 @@ def _are_ascending_bands(cells: Sequence[Cell]) -> bool:
 def _frequencies(table: Table, quantity: Quantity) -> Column:
     """Return the column that holds the frequencies."""
     if len(table.columns) < 2:
-        found = "one column is found" if table.columns and table.columns[0].cells else "no band has a value"
-        message = f"{found}: give {quantity.row}"
-        raise quantity.error(message)
+        raise quantity.error(quantity.nothing)
     named = [each for each in table.columns if each.is_frequency]
     several = [each for each in named if _are_bands(each)] or named
     if several:
