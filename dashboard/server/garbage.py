@@ -2,7 +2,7 @@
 
 Looking through all objects of thirty open pages takes 0.4 s, in which no picture is drawn. Python does it
 every ten seconds or so of such a workshop, and Panel five seconds after somebody has left. Here it is done
-once pages have come or gone and nobody works, after a minute at the latest; what is left is then set aside,
+once pages have come or gone and nobody works, after twenty seconds at the latest; what is left is then set aside,
 so that Python's own looks in between go through what has come since.
 """
 
@@ -14,7 +14,7 @@ from panel.io import document as panel_document
 
 from dashboard.compute.pacing import PACE
 
-LATEST = 60.0
+LATEST = 20.0
 """Time after which it is done even though somebody works [s]."""
 
 
