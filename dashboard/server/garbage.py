@@ -2,8 +2,8 @@
 
 Looking through all objects of thirty open pages takes 0.4 s, in which no picture is drawn. Python does it
 every ten seconds or so of such a workshop, and Panel five seconds after somebody has left. Here it is done
-once pages have come or gone and nobody works, after twenty seconds at the latest; what is left is then set aside,
-so that Python's own looks in between go through what has come since.
+once pages have come or gone and nobody works, after twenty seconds at the latest, since pages that have gone
+wait for it; what is left is then set aside, so that Python's own looks go through what has come since.
 """
 
 import asyncio
