@@ -106,7 +106,8 @@ class Column:
         if cell.value is None:
             return np.nan
         if given is not None and given.quantity != wanted.quantity:
-            message = f"{brief(cell.text)} is in {given.name}, a unit of {given.quantity}: give it in {unit}"
+            kind = f"in {given.name}, a unit of {given.quantity}" if given.name else f"a {given.quantity}"
+            message = f"{brief(cell.text)} is {kind}: give it in {unit}"
             raise TableError(message, cell.line, cell.column)
         return cell.value if given is None else given.convert(cell.value, wanted)
 

@@ -127,15 +127,8 @@ class Exchange(Scripted):
         self._shelf.param.watch(self._remember, "catalogue")
 
     def note(self):
-        """Have the browser keep what there is now.
-
-        Returns
-        -------
-        bool
-            Whether that is something else than it kept.
-        """
-        before, self.kept = self.kept, [self._snapshot.query(), self._snapshot.study().to_toml()]
-        return self.kept != before
+        """Have the browser keep what there is now."""
+        self.kept = [self._snapshot.query(), self._snapshot.study().to_toml()]
 
     async def _follow(self, *_):
         """Note what is kept, once changes rest; the tab is noted at once."""
@@ -193,6 +186,8 @@ class Exchange(Scripted):
                 self._restore(data)
             case {"kind": "recalled", "data": str(data)}:
                 self._recall(data)
+            case {"kind": "copying"}:
+                pn.state.execute(self._bring_link_up_to_date)
             case {"kind": "copied", "data": bool(copied)}:
                 self._tell_of_link(copied)
             case {"kind": str(purpose), "data": bytes(data)} if purpose in self._openers:
@@ -201,11 +196,18 @@ class Exchange(Scripted):
                 if figure in self._key_listeners:
                     self._key_listeners[figure](key, shift)
 
+    async def _bring_link_up_to_date(self):
+        """Have the browser look whether the link that it copied is still the one that it should have copied.
+
+        What was set just before comes a little later: Panel gathers changes, and sliders send one at a time.
+        """
+        await asyncio.sleep(REST)
+        while self._waiting:
+            await asyncio.sleep(REST / 3)
+        self.note()
+        self._send_msg({"kind": "copied"})
+
     def _tell_of_link(self, copied):
-        if self.note():
-            # the address bar, which was copied, had not followed the last changes yet
-            self._send_msg({"kind": "copy"})
-            return
         left_out = self._snapshot.left_out
         if not copied:
             notify("warning", NOT_COPIED)

@@ -12,6 +12,7 @@ from dashboard.figures.insertion_gain import ALONE_TOOLTIPS, NO_LEVELS, PIN_HOVE
 from dashboard.figures.legends import Legend, PinnedLines, solved_entry, with_legend
 from dashboard.figures.overlays import band_overlay, rendered
 from dashboard.figures.swatches import swatch_svg
+from trackig_core.bands import BAND_CENTRES
 
 LEAST_REACH = 4.0
 """What the axis of differences shows at least on either side [dB]."""
@@ -167,7 +168,13 @@ class BaseDifferenceFigure(DesignsFigure):
 
 
 class ReceivedLevelFigure(DesignsFigure):
-    """Level of a source per band, with the reference track and with every design."""
+    """Level of a source per band, with the reference track and with every design.
+
+    Attributes
+    ----------
+    alone : bokeh.models.ColumnDataSource
+        The levels of bands whose neighbours have none, which no line would show.
+    """
 
     def __init__(self):
         super().__init__(
@@ -176,6 +183,8 @@ class ReceivedLevelFigure(DesignsFigure):
             "Level of the source with the designs per one-third-octave band",
             (0.0, 100.0),
         )
+        self.alone = ColumnDataSource(data=_standing_alone([]))
+        self.model.scatter("centre", "level", color="colour", size=theme.DOT_SIZE, source=self.alone)
 
     def show(self, source, results):
         """Draw levels.
@@ -188,7 +197,21 @@ class ReceivedLevelFigure(DesignsFigure):
             Designs with a level; the current one is the first.
         """
         drawn = self._draw(results, [each.level.bands for each in results], source.levels)
+        curves = [(source.levels, theme.PRESET_GHOST), *((each.level.bands, each.colour) for each in results)]
+        self.alone.data = _standing_alone(curves)
         _span(self._ends, drawn)
+
+
+def _standing_alone(curves):
+    """Return the levels (21,) [dB] of curves, given with their colours, whose neighbours are missing."""
+    found = {"centre": [], "level": [], "colour": []}
+    for levels, colour in curves:
+        there = np.isfinite(np.pad(levels, 1, constant_values=np.nan))
+        alone = there[1:-1] & ~there[:-2] & ~there[2:]
+        found["centre"] += [*BAND_CENTRES[alone]]
+        found["level"] += [*levels[alone]]
+        found["colour"] += [colour] * alone.sum()
+    return found
 
 
 def _span(ends, drawn):

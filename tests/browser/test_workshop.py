@@ -223,6 +223,19 @@ def test_the_link_is_copied(dashboard):
     expect(dashboard.get_by_text("The link is copied").first).to_be_visible()
     assert dashboard.evaluate("() => navigator.clipboard.readText()") == dashboard.url
     assert dashboard.evaluate("() => history.length") == 2, "changes do not fill the history"
+    dashboard.evaluate(
+        """() => {
+            window.copies = []
+            const {clipboard} = navigator
+            const write = clipboard.writeText.bind(clipboard)
+            clipboard.writeText = text => { window.copies.push(text); return write(text) }
+        }"""
+    )
+    # a change that the address bar has not followed yet is in the link once that is said to be copied
+    dashboard.get_by_role("tab", name="Compare", exact=True).click()
+    dashboard.get_by_role("button", name="Copy link").first.click()
+    dashboard.wait_for_function("() => window.copies.at(-1)?.includes('tab=compare')")
+    assert dashboard.evaluate("() => window.copies.length") <= 2
 
 
 @pytest.mark.usefixtures("open_dashboard")

@@ -62,20 +62,41 @@ function recall(model) {
   }
 }
 
-async function copyLink(model) {
-  let copied = true
+async function copied(text) {
   try {
-    await navigator.clipboard.writeText(location.href)
+    await navigator.clipboard.writeText(text)
+    return true
   } catch {
     // pages that are not served over HTTPS have no clipboard, but they have this
     const box = document.createElement("textarea")
-    box.value = location.href
+    box.value = text
     document.body.append(box)
     box.select()
-    copied = document.execCommand("copy")
+    const done = document.execCommand("copy")
     box.remove()
+    return done
   }
-  model.send_msg({kind: "copied", data: copied})
+}
+
+// The address bar may not have followed the last changes yet. Still, what it holds is copied at once, since some
+// browsers let a page copy at a click alone; and once more if the server says that there was more to come.
+function linkCopier(model) {
+  let last = {text: "", done: false}
+  const copy = async () => {
+    const text = location.href
+    if (text !== last.text || !last.done) last = {text, done: await copied(text)}
+  }
+  return {
+    async begin() {
+      last = {text: "", done: false}
+      await copy()
+      model.send_msg({kind: "copying"})
+    },
+    async end() {
+      await copy()
+      model.send_msg({kind: "copied", data: last.done})
+    },
+  }
 }
 
 // Bring a part of the page into sight that may be made only now.
@@ -205,13 +226,14 @@ async function comeBack() {
 
 export function render({model, view}) {
   const answer = () => model.send_msg({kind: "introduced"})
+  const link = linkCopier(model)
   model.on("kept", () => {
     keep(model)
     answer()
   })
   model.on("msg:custom", (message) => {
     if (message.kind === "keep") keep(model)
-    if (message.kind === "copy") copyLink(model)
+    if (message.kind === "copied") link.end()
     if (message.kind === "introduce") answer()
     if (message.kind === "reveal") reveal(view.model.document, message.name)
     if (message.kind === "remember") remember(message.data)
@@ -220,7 +242,7 @@ export function render({model, view}) {
   view.model.document.on_event("connection_lost", comeBack)
   document.addEventListener("click", switchThemeAsAWhole, true)
   window.trackig = {
-    copyLink: () => copyLink(model),
+    copyLink: link.begin,
     choose: (...rest) => choose(model, ...rest),
   }
   onDrawn("Canvas", (canvas) => nameFigure(model, canvas))

@@ -180,7 +180,7 @@ def test_a_remembered_catalogue_that_is_none_is_forgotten(exchange, sent, told, 
     assert sent == [{"kind": "remember", "data": ""}]
 
 
-def test_a_copied_link_is_the_newest_and_says_what_needs_the_study_file(session, exchange, sent, told):
+def test_a_copied_link_says_what_needs_the_study_file(session, exchange, told):
     exchange.handle_message({"kind": "copied", "data": True})
     assert told == [("success", exchange_module.COPIED)]
     curve = tig.StiffnessCurve([(5, 20e6, 0.1), (500, 30e6, 0.2)])
@@ -192,10 +192,33 @@ def test_a_copied_link_is_the_newest_and_says_what_needs_the_study_file(session,
         exchange.handle_message({"kind": "copied", "data": True})
 
     asyncio.run(run())
-    assert told == [], "the address bar had not followed yet"
-    assert sent == [{"kind": "copy"}]
-    exchange.handle_message({"kind": "copied", "data": True})
     ((kind, words),) = told
     assert kind == "warning"
     assert "only the study file holds: the boot stiffness. " in words
-    assert sent == [{"kind": "copy"}], "nothing has changed since"
+
+
+def test_the_browser_looks_at_what_it_copied_once_changes_rest(session, monkeypatch):
+    """A change of which the server hears a little after the click is part of the link."""
+    exchange, told = Exchange(session.snapshot), []
+    monkeypatch.setattr(exchange, "_send_msg", lambda message: told.append((message, exchange.kept[0])))
+
+    async def run():
+        rest = asyncio.Event()
+
+        async def until_rest(_):
+            await rest.wait()
+            await asyncio.sleep(0)
+
+        monkeypatch.setattr(exchange_module, "asyncio", SimpleNamespace(sleep=until_rest))
+        exchange.handle_message({"kind": "copying"})
+        await asyncio.sleep(0)
+        session.inputs.boot_stiffness = 39
+        await asyncio.sleep(0)
+        assert told == [], "changes have not rested"
+        rest.set()
+        await until_at_rest()
+
+    asyncio.run(run())
+    ((message, kept),) = told
+    assert message == {"kind": "copied"}
+    assert "boot_stiffness=39" in kept

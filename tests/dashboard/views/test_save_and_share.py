@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import trackig_core as tig
+from dashboard import theme
 from dashboard.views.received_level import ReceivedLevel
 from dashboard.views.save_and_share import SaveAndShare
 from dashboard.views.specification import SpecificationView
@@ -346,6 +347,17 @@ def test_received_levels_are_drawn_with_the_reference_track(session, level):
     assert level.figure.model.y_range.start <= 60.0
     session.assessment.source = None
     assert not level.plot.visible
+
+
+def test_a_band_whose_neighbours_have_no_level_is_drawn_as_a_point(session, level):
+    session.assessment.source = tig.SourceSpectrum([(31.5, 60.0), (63, 70.5), (80, 66.0), (500, 50.0)])
+    alone, gain = level.figure.alone.data, session.outcome.summary.solution.insertion_gain
+    places = [tig.BAND_LABELS.index(each) for each in ("31.5", "500")]
+    assert list(alone["centre"]) == [tig.BAND_CENTRES[each] for each in (*places, *places)]
+    assert list(alone["level"]) == [60.0, 50.0, 60.0 + gain[places[0]], 50.0 + gain[places[1]]]
+    assert list(alone["colour"]) == [theme.PRESET_GHOST] * 2 + [theme.THIS_DESIGN] * 2
+    session.assessment.source = tig.SourceSpectrum([(63, 70.5), (80, 66.0)])
+    assert list(level.figure.alone.data["level"]) == []
 
 
 def test_a_source_at_fault_changes_nothing(session, level, exchange):
