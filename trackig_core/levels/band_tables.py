@@ -20,7 +20,7 @@ from typing import Any, ClassVar, Generic, Self, TypeVar
 import numpy as np
 
 from trackig_core.arrays import RealArray
-from trackig_core.bands import BAND_CENTRES, BAND_LABELS
+from trackig_core.bands import BAND_CENTRES, BAND_LABELS, BAND_NUMBERS
 from trackig_core.names import LONGEST_TITLE, allowed, brief, is_name
 from trackig_core.table_text import AT_LEAST, AT_MOST, Cell, TableError, parsed
 from trackig_core.table_text import MOST_BYTES as MOST_BYTES
@@ -37,6 +37,10 @@ NOMINAL = tuple(float(label) for label in BAND_LABELS)
 TOLERANCE = 0.02
 """Relative distance from the nominal or exact mid-band frequency within which a band is meant [-]: it lets
 base-two centres pass, and bands lie 26 % apart."""
+
+ROUNDING = 0.006
+"""Relative distance from a mid-band frequency, nominal or exact, in base ten or two, that rounding makes [-]:
+what is further away is said to be taken for its band."""
 
 _LOSS = re.compile(
     r"loss|dämm|daemm|dämpf|daempf|minder|reduc|réduc|reduz|riduz|attenu|atténu|affaibl|perte|pérdida|perdita"
@@ -355,6 +359,12 @@ def _band(frequency: object) -> int | None:
     return None
 
 
+def _is_usual(frequency: float) -> bool:
+    """Return whether a frequency [Hz] is written for a band as standards do, to three figures."""
+    usual = np.array([NOMINAL, BAND_CENTRES, 1000 * 2 ** (BAND_NUMBERS / 3 - 10)])
+    return bool((np.abs(usual / frequency - 1) < ROUNDING).any())
+
+
 def _unknown_band(frequency: object) -> str:
     shown = f"frequency {brief(frequency)}"
     number = _number(frequency)
@@ -413,6 +423,10 @@ def _read(data: str | bytes, quantity: Quantity) -> _Found:
     if outside:
         bands = f"{BAND_LABELS[0]} to {BAND_LABELS[-1]} Hz"
         notes.append(f"set aside, outside {bands}: {', '.join(outside)} Hz")
+    moved = [each for _, each, _ in rows if not _is_usual(each)]
+    if moved:
+        pairs = [f"{each:g} Hz as {BAND_LABELS[_band(each) or 0]} Hz" for each in moved]
+        notes.append(f"taken for the nearest band: {', '.join(pairs)}")
     if blank:
         notes.append(f"no value at {', '.join(blank)} Hz")
     if len(set_aside) > MOST_SET_ASIDE:

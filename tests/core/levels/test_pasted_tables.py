@@ -275,6 +275,20 @@ def test_rows_may_stand_in_one_line(line):
     assert tig.Specification.read(line).table.points == PAIRS.points
 
 
+def test_a_frequency_that_no_standard_writes_is_said_to_be_taken_for_its_band():
+    reading = tig.Specification.read("64 -3\n80 -5\n31 -1")
+    assert reading.table.points == ((31.5, -1.0), (63.0, -3.0), (80.0, -5.0))
+    assert "taken for the nearest band: 64 Hz as 63 Hz, 31 Hz as 31.5 Hz" in reading.notes
+
+
+@pytest.mark.parametrize("centres", [10 ** (np.arange(7, 28) / 10), 1000 * 2 ** (np.arange(-23, -2) / 3)])
+def test_exact_mid_band_frequencies_are_taken_without_a_word(centres):
+    rows = "\n".join(f"{each:.3g} -{place + 1}" for place, each in enumerate(centres))
+    reading = tig.Specification.read(rows)
+    assert len(reading.table.points) == 21
+    assert not any("nearest" in each for each in reading.notes)
+
+
 def test_rows_of_one_line_may_have_three_numbers():
     data = "1 20 0.1; 63 25 0.15; 400 30 0.2"
     columns = typed_tables.read_table(data).columns
