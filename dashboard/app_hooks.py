@@ -55,7 +55,7 @@ def opening_picture():
 
 def on_session_created(session_context):  # noqa: ARG001
     """Have the objects of a new page set aside."""
-    SWEEPER.call()
+    SWEEPER.note_come()
 
 
 def on_session_destroyed(session_context):

@@ -2,8 +2,8 @@
 
 Looking through all objects of thirty open pages takes 0.4 s, in which no picture is drawn. Python does it
 every ten seconds or so of such a workshop, and Panel five seconds after somebody has left. Here it is done
-once pages have come or gone and nobody works, after twenty seconds at the latest, since pages that have gone
-wait for it; what is left is then set aside, so that Python's own looks go through what has come since.
+once pages have gone and nobody works, after twenty seconds at the latest. What is left is then set aside, and
+so is what pages are made of that have come: Python's own looks go through what is newer alone.
 """
 
 import asyncio
@@ -19,7 +19,7 @@ LATEST = 20.0
 
 
 class Sweeper:
-    """Looks for garbage when it is told that there may be some.
+    """Looks for garbage, and sets aside what is none, when it is told that pages have come or gone.
 
     Parameters
     ----------
@@ -28,21 +28,28 @@ class Sweeper:
     """
 
     def __init__(self, pace):
-        self._pace, self._task = pace, None
+        self._pace, self._task, self._is_due = pace, None, False
 
     def install(self):
         """Have it take the place of what Panel does when a session has ended, in this process."""
-        panel_document._garbage_collect = self.call
+        panel_document._garbage_collect = self.note_gone
 
-    def call(self):
-        """Note, on the event loop, that a page has come or gone."""
+    def note_come(self):
+        """Note, on the event loop, that a page has come."""
         if self._task is None or self._task.done():
-            self._task = asyncio.get_running_loop().create_task(self._sweep_at_leisure())
+            self._task = asyncio.get_running_loop().create_task(self._act_at_leisure())
 
-    async def _sweep_at_leisure(self):
+    def note_gone(self):
+        """Note, on the event loop, that a page has gone, which leaves garbage."""
+        self._is_due = True
+        self.note_come()
+
+    async def _act_at_leisure(self):
         with suppress(TimeoutError):
             await asyncio.wait_for(self._pace.idle(), LATEST)
-        sweep()
+        # what a page is made of is set aside unseen: that takes no time, and what of it is garbage can wait
+        sweep() if self._is_due else gc.freeze()
+        self._is_due = False
 
 
 def sweep():

@@ -191,7 +191,7 @@ def test_the_server_begins_with_the_opening_preset(monkeypatch):
     assert prepared == [("ours", app.TITLE)]
     assert fake.requested[0] == (tig.PRESETS["booted-block-low-mass"], AT_REST)
     assert {design for design, _ in fake.requested} == set(tig.PRESETS.values())
-    assert panel_document._garbage_collect == app_hooks.SWEEPER.call
+    assert panel_document._garbage_collect == app_hooks.SWEEPER.note_gone
     assert gc.get_freeze_count() > 0
     app_hooks.on_server_unloaded(None)
     assert fake.closed

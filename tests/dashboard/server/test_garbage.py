@@ -56,16 +56,39 @@ def test_it_waits_until_nobody_works_and_is_done_once_for_all_who_came_and_went(
         sweeper = Sweeper(pace)
         for _ in range(20):
             pace.hear(document)
-            sweeper.call()
+            sweeper.note_gone()
             await asyncio.sleep(0.005)
             assert swept == []
         last = asyncio.get_running_loop().time()
         await sweeper._task
         assert len(swept) == 1
         assert swept[0] - last >= 0.04
-        sweeper.call()
+        sweeper.note_gone()
         await sweeper._task
         assert len(swept) == 2
+
+    asyncio.run(run())
+
+
+def test_a_page_that_has_come_is_set_aside_and_nothing_is_looked_through(swept, monkeypatch):
+    monkeypatch.setattr(pacing, "IDLE", 0.0)
+
+    async def run():
+        sweeper, page = Sweeper(Pace()), Ring()
+        sweeper.note_come()
+        await sweeper._task
+        gone = weakref.ref(page)
+        del page
+        gc.collect()
+        assert gone() is not None
+        assert swept == []
+        sweeper.note_come()
+        sweeper.note_gone()
+        await sweeper._task
+        assert len(swept) == 1, "once is enough for both"
+        sweeper.note_come()
+        await sweeper._task
+        assert len(swept) == 1
 
     asyncio.run(run())
 
@@ -76,7 +99,7 @@ def test_it_is_not_put_off_for_ever(swept, monkeypatch):
     async def run():
         pace, document = Pace(), Document()
         sweeper = Sweeper(pace)
-        sweeper.call()
+        sweeper.note_gone()
         while not swept:
             pace.hear(document)
             await asyncio.sleep(0.001)
