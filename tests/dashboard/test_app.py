@@ -4,6 +4,7 @@ import asyncio
 import gc
 import runpy
 from concurrent.futures import Future
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -15,6 +16,7 @@ from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from bokeh.document import Document
 from panel.io import document as panel_document
 from panel.util import edit_readonly
+from panel.viewable import Viewable
 
 import dashboard
 import trackig_core as tig
@@ -168,6 +170,25 @@ class FakeStore:
 
     def close(self):
         self.closed = True
+
+
+def test_what_is_added_is_looked_through_alone_and_its_clicks_are_heard(monkeypatch):
+    seen = []
+    hooks = [*Viewable._preprocessing_hooks, lambda view, _: seen.append(view)]
+    monkeypatch.setattr(Viewable, "_preprocessing_hooks", hooks)
+    part, button = pn.Column(), pn.widgets.Button()
+    button.js_on_click(code="window.heard = true")
+    whole = pn.Column(pn.pane.HTML("large"), part)
+    whole._preprocess = partial(app.look_through, whole)
+    root = whole.get_root(Document())
+    assert seen == [whole]
+    part.append(button)
+    assert seen == [whole, part]
+    (shown,) = root.children[1].children
+    ((callback,),) = shown.js_event_callbacks.values()
+    assert "window.heard" in callback.code
+    part.append(pn.pane.HTML("more"))
+    ((callback,),) = shown.js_event_callbacks.values()
 
 
 @pytest.fixture
