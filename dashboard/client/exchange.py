@@ -121,6 +121,7 @@ class Exchange(Scripted):
         self._openers, self._key_listeners = {}, {}
         self._waiting = False
         self._changed = False
+        self._copying = False
         self.note()
         snapshot.watch(self._follow)
         snapshot.param.watch(lambda *_: self.note(), "tab")
@@ -186,7 +187,8 @@ class Exchange(Scripted):
                 self._restore(data)
             case {"kind": "recalled", "data": str(data)}:
                 self._recall(data)
-            case {"kind": "copying"}:
+            case {"kind": "copying"} if not self._copying:
+                self._copying = True
                 pn.state.execute(self._bring_link_up_to_date)
             case {"kind": "copied", "data": bool(copied)}:
                 self._tell_of_link(copied)
@@ -201,9 +203,12 @@ class Exchange(Scripted):
 
         What was set just before comes a little later: Panel gathers changes, and sliders send one at a time.
         """
-        await asyncio.sleep(REST)
-        while self._waiting:
-            await asyncio.sleep(REST / 3)
+        try:
+            await asyncio.sleep(REST)
+            while self._waiting:
+                await asyncio.sleep(REST / 3)
+        finally:
+            self._copying = False
         self.note()
         self._send_msg({"kind": "copied"})
 
