@@ -3,6 +3,7 @@
 import asyncio
 import gc
 import weakref
+from types import SimpleNamespace
 
 import pytest
 from bokeh.document import Document
@@ -12,7 +13,7 @@ from dashboard.compute import pacing
 from dashboard.compute.pacing import Pace
 from dashboard.server import garbage
 from dashboard.server.garbage import Sweeper, sweep
-from tests.waiting import until_at_rest
+from tests.waiting import WAIT, until_at_rest
 
 
 class Ring:
@@ -48,67 +49,71 @@ def test_what_was_set_aside_is_freed_at_the_next_sweep():
     assert gc.get_freeze_count() > 10_000
 
 
-def test_it_waits_until_nobody_works_and_is_done_once_for_all_who_came_and_went(swept, monkeypatch):
+@pytest.fixture
+def act(monkeypatch):
+    """Return a function that has notes taken, and then nobody work; what was swept by then is returned."""
+    times = []
+    monkeypatch.setattr(garbage, "sweep", lambda: times.append("swept"))
+
+    def act(sequence):
+        async def run():
+            counts, nobody_works = [], asyncio.Event()
+            sweeper = Sweeper(SimpleNamespace(idle=nobody_works.wait))
+            for notes in sequence:
+                nobody_works.clear()
+                for note in notes:
+                    getattr(sweeper, note)()
+                    await asyncio.sleep(0)
+                before = len(times)
+                nobody_works.set()
+                await sweeper._task
+                counts.append((before, len(times)))
+            return counts
+
+        return asyncio.run(run())
+
+    return act
+
+
+def test_it_waits_until_nobody_works_and_is_done_once_for_all_who_came_and_went(act):
+    assert act([["note_gone"] * 20, ["note_gone"]]) == [(0, 1), (1, 2)]
+    page = Ring()
+    assert act([["note_come"]]) == [(2, 2)]
+    gone = weakref.ref(page)
+    del page
+    gc.collect()
+    assert gone() is not None, "a page that has come is set aside, and nothing is looked through"
+    assert act([["note_come", "note_gone"], ["note_come"]]) == [(2, 3), (3, 3)]
+
+
+def test_nobody_works_once_all_pages_were_silent_for_a_while(swept, monkeypatch):
     monkeypatch.setattr(pacing, "IDLE", 0.05)
 
     async def run():
         pace, document = Pace(), Document()
         sweeper = Sweeper(pace)
-        for _ in range(20):
-            pace.hear(document)
-            sweeper.note_gone()
-            await asyncio.sleep(0.005)
-            assert swept == []
+        pace.hear(document)
         last = asyncio.get_running_loop().time()
-        await sweeper._task
-        assert len(swept) == 1
-        assert swept[0] - last >= 0.04
         sweeper.note_gone()
         await sweeper._task
-        assert len(swept) == 2
+        return last
 
-    asyncio.run(run())
-
-
-def test_a_page_that_has_come_is_set_aside_and_nothing_is_looked_through(swept, monkeypatch):
-    monkeypatch.setattr(pacing, "IDLE", 0.0)
-
-    async def run():
-        sweeper, page = Sweeper(Pace()), Ring()
-        sweeper.note_come()
-        await sweeper._task
-        gone = weakref.ref(page)
-        del page
-        gc.collect()
-        assert gone() is not None
-        assert swept == []
-        sweeper.note_come()
-        sweeper.note_gone()
-        await sweeper._task
-        assert len(swept) == 1, "once is enough for both"
-        sweeper.note_come()
-        await sweeper._task
-        assert len(swept) == 1
-
-    asyncio.run(run())
+    last = asyncio.run(run())
+    assert len(swept) == 1
+    assert swept[0] - last >= 0.04
 
 
 def test_it_is_not_put_off_for_ever(swept, monkeypatch):
     monkeypatch.setattr(garbage, "LATEST", 0.05)
 
     async def run():
-        pace, document = Pace(), Document()
-        sweeper = Sweeper(pace)
+        sweeper = Sweeper(SimpleNamespace(idle=asyncio.Event().wait))
         sweeper.note_gone()
-        while not swept:
-            pace.hear(document)
-            await asyncio.sleep(0.001)
+        async with asyncio.timeout(WAIT):
+            await sweeper._task
 
-    async def bounded():
-        async with asyncio.timeout(60):
-            await run()
-
-    asyncio.run(bounded())
+    asyncio.run(run())
+    assert len(swept) == 1
 
 
 def test_a_session_that_ends_has_it_done_at_leisure(swept, monkeypatch):
