@@ -42,6 +42,9 @@ ROUNDING = 0.006
 """Relative distance from a mid-band frequency, nominal or exact, in base ten or two, that rounding makes [-]:
 what is further away is said to be taken for its band."""
 
+_USUAL = np.array([NOMINAL, BAND_CENTRES, 1000 * 2 ** (BAND_NUMBERS / 3 - 10)])
+"""Mid-band frequencies: nominal, exact in base ten, exact in base two (3, 21) [Hz]."""
+
 _LOSS = re.compile(
     r"loss|dämm|daemm|dämpf|daempf|minder|reduc|réduc|reduz|riduz|attenu|atténu|affaibl|perte|pérdida|perdita"
     r"|demping|\bD_?e\b|≥|>",
@@ -361,8 +364,7 @@ def _band(frequency: object) -> int | None:
 
 def _is_usual(frequency: float) -> bool:
     """Return whether a frequency [Hz] is written for a band as standards do, to three figures."""
-    usual = np.array([NOMINAL, BAND_CENTRES, 1000 * 2 ** (BAND_NUMBERS / 3 - 10)])
-    return bool((np.abs(usual / frequency - 1) < ROUNDING).any())
+    return bool((np.abs(_USUAL / frequency - 1) < ROUNDING).any())
 
 
 def _unknown_band(frequency: object) -> str:
