@@ -44,6 +44,22 @@ def words(text="", size=16, weight=400, **place):
     return pn.pane.Markdown(text, stylesheets=[theme.WORDS_CSS], styles=styles, **place)
 
 
+def put_words(place, text):
+    """Show words in their place, which takes no room while there are none.
+
+    One by one: all at once, param would look through all that a pane has.
+
+    Parameters
+    ----------
+    place : panel.pane.Markdown or panel_material_ui.Alert
+        Where they go.
+    text : str
+        The words, of the place's own markup; empty if there are none.
+    """
+    place.object = text
+    place.visible = bool(text)
+
+
 def panel(*objects, name=None):
     """Return a panel of the page to which figures may be added while it is shown; scripts may know its name.
 

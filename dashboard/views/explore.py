@@ -14,7 +14,7 @@ from dashboard.figures.force import ForceFigure
 from dashboard.figures.insertion_gain import InsertionGainFigure
 from dashboard.session.bands import bands_text
 from dashboard.session.production import Production
-from dashboard.views.components import bokeh_pane, caption, gain_axis, panel, words
+from dashboard.views.components import bokeh_pane, caption, gain_axis, panel, put_words, words
 from dashboard.views.frequencies import Frequencies
 from dashboard.views.tab import Tab
 from dashboard.views.verdict import ShortVerdict
@@ -86,7 +86,7 @@ class Explore(Tab):
         self.insertion_gain.name_axis(gain_axis(self._definition, self._assessment.current.design))
         self._say_reference()
         words = bands_text(self._definition.bands)
-        say(self.bands_words, f"{words[:1].upper()}{words[1:]}." if words else "")
+        put_words(self.bands_words, f"{words[:1].upper()}{words[1:]}." if words else "")
         if self._assessment.current.summary is None:
             return
         if results is not self._drawn:
@@ -100,7 +100,7 @@ class Explore(Tab):
         wanted = self._definition.reference
         yielding = [name for name, each in designs.items() if self._definition.reference_of(each) != wanted]
         words = f"{html.escape(', '.join(yielding))}: {YIELDING_WORDS}" if yielding else ""
-        say(self.reference_words, words)
+        put_words(self.reference_words, words)
 
     def _show_forces(self):
         current = self._assessment.current
@@ -180,12 +180,6 @@ class Explore(Tab):
         frequencies.objects = [caption("Natural frequencies and standing load", ""), self.frequencies]
         force.objects = [caption(FORCE_TITLE, FORCE_WORDS), force_pane]
         yield
-
-
-def say(place, text):
-    """Show words in their place, which takes no room while there are none."""
-    place.object = text
-    place.visible = bool(text)
 
 
 FIDELITY_CHIPS = {

@@ -12,7 +12,7 @@ import trackig_core as tig
 from dashboard import theme
 from dashboard.figures.learn import BandsFigure, Curve
 from dashboard.teaching.lessons import load_lessons, reveal, set_sliders
-from dashboard.views.components import bokeh_pane, gain_axis, words
+from dashboard.views.components import bokeh_pane, gain_axis, put_words, words
 from dashboard.views.subjects import Subject, panel_of
 
 NO_HTML = {"html": False}
@@ -121,7 +121,7 @@ class Lessons(Subject):
         self.introduction.object = _without_pictures(answer.introduction)
         self.revealed.object = _without_pictures(answer.reveal)
         faults = [*self.faults, *answer.problems]
-        self.broken.param.update(object=_escaped(faults), visible=bool(faults))
+        put_words(self.broken, _escaped(faults))
         self.reveal.disabled = False
 
     def _begin(self, _):

@@ -23,7 +23,7 @@ from dashboard.figures.learn import (
 from dashboard.figures.verification import DampingFigure
 from dashboard.session.inputs import DesignInputs
 from dashboard.teaching import explanations
-from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis, words
+from dashboard.views.components import PAPER, bokeh_pane, caption, gain_axis, put_words, words
 
 HALF = {"xs": 12, "lg": 6}
 
@@ -76,7 +76,7 @@ class Subject(Viewer):
         return summary.solution.fidelity == "paper" or summary.design == self.outcome.asked
 
     def _complain(self, *_):
-        self.problem.param.update(object=self.question.problem, visible=bool(self.question.problem))
+        put_words(self.problem, self.question.problem)
 
     def _answered(self, *_):
         if self.question.answer is not None:
