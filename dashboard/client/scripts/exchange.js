@@ -7,7 +7,8 @@ const CATALOGUE = "trackig-catalogue"
 const LONGEST_CATALOGUE = 262144 // characters that are sent back
 const LOOK_EVERY = 500 // ms between looks whether the server is back
 const RECOLOURED = 100 // ms after which recolouring has begun
-const REVEALED = 8000 // ms after which a part that is not there is given up
+const REVEALED = 30000 // ms after which a part that is not there is given up
+const SETTLED = 10000 // ms without a move of a part, after which it is taken to stay where it is
 const GAP = 40 // ms between looks whether the page is at work
 const PATIENCE = 1500 // ms after which the page is shown as it is; browsers give up after 4000
 
@@ -99,13 +100,24 @@ function linkCopier(model) {
   }
 }
 
-// Bring a part of the page into sight that may be made only now.
+// Bring a part of the page into sight that may be made only now, and hold it there while what stands above it is still
+// being drawn; whoever scrolls, clicks or types meanwhile goes on from where that leads.
 async function reveal(document, name) {
-  for (const patience = performance.now() + REVEALED; performance.now() < patience; await pause(RECOLOURED)) {
+  const theirs = new AbortController()
+  const leave = () => theirs.abort()
+  for (const sign of ["wheel", "touchmove", "pointerdown", "keydown"])
+    window.addEventListener(sign, leave, {capture: true, passive: true, signal: theirs.signal})
+  let top = null
+  let until = performance.now() + REVEALED
+  for (; performance.now() < until && !theirs.signal.aborted; await pause(RECOLOURED)) {
     const model = document.get_model_by_name(name)
     const part = model === null ? null : Bokeh.index.find_one(model)?.el
-    if (part?.checkVisibility()) return part.scrollIntoView({block: "start"})
+    if (!part?.checkVisibility() || part.getBoundingClientRect().top === top) continue
+    part.scrollIntoView({block: "start"})
+    top = part.getBoundingClientRect().top
+    until = performance.now() + SETTLED
   }
+  leave()
 }
 
 function save(name, blob) {
