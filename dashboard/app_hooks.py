@@ -14,13 +14,14 @@ from dashboard.compute.workers import AT_REST, compiled, shared_live_store, shar
 from dashboard.fields import OPENING_PRESET
 from dashboard.figures import overlays
 from dashboard.server import bokeh_shortcuts, first_page, sessions
-from dashboard.server.garbage import SWEEPER, sweep
+from dashboard.server.garbage import SWEEPER, share_heap, sweep
 from dashboard.server.reserve import RESERVE
 from dashboard.server_log import leave_out_departures, leave_out_empty_places
 
 # the server is made after its hooks are read
 first_page.install()
 bokeh_shortcuts.install()
+share_heap()
 
 
 def on_server_loaded(server_context):

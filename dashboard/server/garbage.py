@@ -4,9 +4,13 @@ Looking through all objects of thirty open pages takes 0.4 s, in which no pictur
 every ten seconds or so of such a workshop, and Panel five seconds after somebody has left. Here it is done
 once pages have gone and nobody works, after twenty seconds at the latest. What is left is then set aside, and
 so is what pages are made of that have come: Python's own looks go through what is newer alone.
+
+What is freed goes back to the system at the same time. glibc would keep it: each thread that solves has a
+heap of its own, where the large arrays of a run leave their room behind.
 """
 
 import asyncio
+import ctypes
 import gc
 from contextlib import suppress
 
@@ -16,6 +20,9 @@ from dashboard.compute.pacing import PACE
 
 LATEST = 20.0
 """Time after which it is done even though somebody works [s]."""
+
+_M_ARENA_MAX = -8
+"""glibc's number of the option that says how many heaps there may be (malloc.h)."""
 
 
 class Sweeper:
@@ -53,10 +60,22 @@ class Sweeper:
 
 
 def sweep():
-    """Free what nothing refers to any more, and set aside what is left."""
+    """Free what nothing refers to any more, give the system its memory back, set aside what is left."""
     gc.unfreeze()
     gc.collect()
+    _c_library("malloc_trim", 0)
     gc.freeze()
+
+
+def share_heap():
+    """Have threads that begin from now on share one heap of the C library."""
+    _c_library("mallopt", _M_ARENA_MAX, 1)
+
+
+def _c_library(name, *arguments):
+    """Call a function of glibc that takes whole numbers; nothing happens with another C library."""
+    with suppress(AttributeError):
+        getattr(ctypes.pythonapi, name)(*arguments)
 
 
 SWEEPER = Sweeper(PACE)

@@ -71,14 +71,14 @@ def wait_until_drawn(page, name):
     )
 
 
-def wait_for_levels(page, expected, source="insertion_gain"):
-    """Wait until the curve in the browser is the expected one; then compare it to the last digit shown."""
+def wait_for_levels(page, *expected, source="insertion_gain"):
+    """Wait until the curve in the browser is one of those expected, to the last digit shown."""
     page.wait_for_function(
         """([source, expected]) => {
             const level = Bokeh.documents[0].get_model_by_name(source)?.data.level ?? []
-            return expected.every((value, band) => Math.abs(value - level[band]) < 1e-6)
+            return expected.some(curve => curve.every((value, band) => Math.abs(value - level[band]) < 1e-6))
         }""",
-        arg=[source, [float(level) for level in expected]],
+        arg=[source, [list(map(float, curve)) for curve in expected]],
     )
 
 

@@ -2,6 +2,9 @@
 
 import asyncio
 import gc
+import platform
+import subprocess
+import sys
 import weakref
 from types import SimpleNamespace
 
@@ -127,3 +130,65 @@ def test_a_session_that_ends_has_it_done_at_leisure(swept, monkeypatch):
         assert len(swept) == 1
 
     asyncio.run(run())
+
+
+ON_GLIBC = pytest.mark.skipif(
+    platform.libc_ver()[0] != "glibc", reason="only glibc gives memory back when asked"
+)
+
+FREED = """
+from pathlib import Path
+import numpy as np
+from dashboard.server.garbage import sweep
+
+def resident():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+arrays = [np.ones(8000) for _ in range(2000)]
+newest = arrays[-1]  # stands at the end of the heap, which could shrink there
+arrays.clear()
+before = resident()
+sweep()
+print(before - resident())
+"""
+"""Prints how much memory a sweep gives back after 128 MB have been freed."""
+
+HEAPS = """
+import ctypes, sys, threading
+from dashboard.server.garbage import share_heap
+
+if sys.argv[1] == "shared":
+    share_heap()
+begun = threading.Barrier(5)
+library = ctypes.CDLL(None)
+
+def act():
+    library.malloc(100)
+    begun.wait()
+
+threads = [threading.Thread(target=act) for _ in range(4)]
+for thread in threads:
+    thread.start()
+begun.wait()
+library.fdopen.restype = ctypes.c_void_p
+output = ctypes.c_void_p(library.fdopen(1, b"w"))
+library.malloc_info(0, output)
+library.fflush(output)
+"""
+"""Has four threads allocate, and prints what the C library says of its heaps."""
+
+
+def printed_by(script, *arguments):
+    command = [sys.executable, "-c", script, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=WAIT).stdout
+
+
+@ON_GLIBC
+def test_what_is_freed_goes_back_to_the_system():
+    assert int(printed_by(FREED)) > 100e6
+
+
+@ON_GLIBC
+def test_threads_share_one_heap():
+    assert printed_by(HEAPS, "apart").count("<heap nr=") > 1
+    assert printed_by(HEAPS, "shared").count("<heap nr=") == 1
