@@ -383,6 +383,9 @@ def indices_of(
 
 def _indices(values: RealArray) -> RealArray:
     """Return first-order and total indices (2, figures, factors) of both samples and the mixed ones."""
+    figures = len(values)
+    # SciPy fails where there is one index alone, that of one figure for one factor
+    values = np.repeat(values, 2, axis=0) if figures == 1 else values
     evaluated = {
         "f_A": values[:, 0],
         "f_B": values[:, 1],
@@ -390,4 +393,4 @@ def _indices(values: RealArray) -> RealArray:
     }
     with np.errstate(invalid="ignore"):  # what does not vary has no parts of a variance: NaN
         found = sobol_indices(func=evaluated, n=values.shape[-1])
-    return np.array([found.first_order, found.total_order]).reshape(2, values.shape[0], -1)
+    return np.array([found.first_order, found.total_order]).reshape(2, len(values), -1)[:, :figures]

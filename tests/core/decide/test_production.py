@@ -237,6 +237,13 @@ def test_sobol_indices_of_a_track(specification):
         sobol(BLOCK, TOLERANCES)
 
 
+def test_all_that_scatters_is_due_to_what_scatters_alone(specification):
+    found = sobol(BLOCK, {"boot_stiffness": 0.2}, specification, samples=256)
+    np.testing.assert_allclose([found.first_order, found.total_order], 1, atol=0.03)
+    for low, high in (found.first_order_interval[0, 0], found.total_order_interval[0, 0]):
+        assert low < 1 < high
+
+
 def test_differences_are_those_of_exact_solutions(specification):
     source = tig.SourceSpectrum([(each, 60.0) for each in tig.BAND_CENTRES])
     found = sensitivity(BLOCK, specification, source=source)
