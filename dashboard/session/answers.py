@@ -107,7 +107,7 @@ class Answers(param.Parameterized):
 def settings_texts(question):
     """Return the settings of a question, a line of words each, in the units of the sliders (list of str)."""
     return [
-        f"{name.replace('_', ' ')}: {_WORDS.get(name, _plain)(value)}"
+        f"{_NAMES.get(name, name.replace('_', ' '))}: {_WORDS.get(name, _plain)(value)}"
         for name, value in question.settings.items()
     ]
 
@@ -168,7 +168,16 @@ def _choices(choices):
     return "; ".join(f"{field_label(name)} of {len(values)}" for name, values in choices.items())
 
 
+def _deflection(limit):
+    return f"{1e3 * limit:.3g} mm"
+
+
+_NAMES = {"x_field": "across", "y_field": "up", "max_deflection": "rail sinks at most"}
+"""What settings are called where people choose them, if not as the library has them."""
+
+
 _WORDS = {
+    "max_deflection": _deflection,
     "changes": _changes,
     "tolerances": _tolerances,
     "production": _production,
