@@ -1,8 +1,8 @@
 """How many sessions there may be, how many pages are kept ready, and what is forgotten when a session ends.
 
 One session holds some 3 MB as it opens and 28 MB once all tabs were looked at, and whatever its user makes it
-hold is bounded: eight pinned designs, a hundred steps of undo, files and messages of :data:`MOST_MESSAGE_BYTES`
-at most.
+hold is bounded: eight pinned designs, a hundred steps of undo, files and messages of
+:data:`MOST_MESSAGE_BYTES` at most.
 """
 
 import os
