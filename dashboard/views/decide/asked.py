@@ -45,6 +45,8 @@ class Asked:
     hint = ""
     before = ""
     """What to do for an answer, said where it will be."""
+    ages = False
+    """Whether the answer stays as it is when the design changes of which it was asked, and says so."""
 
     def __init__(self, snapshot, exchange, inquiry=None):
         self.snapshot, self._exchange = snapshot, exchange
@@ -66,6 +68,7 @@ class Asked:
             label="Keep the answer", icon="bookmark_add", on_click=self._keep, **SMALL_BUTTON
         )
         self.export = pmui.Button(label="CSV", icon="download", on_click=self._export, **SMALL_BUTTON)
+        self._is_dated = False
         self.answered_row = pn.Row(self.keep, self.export, visible=False, margin=(0, 12))
         self.inquiry.param.watch(self._show_state, ["busy", "progress", "problem"])
         # figures may change only when the session's document may
@@ -106,10 +109,29 @@ class Asked:
         result = self.inquiry.result
         self.answered_row.visible = result is not None
         if result is not None:
+            self._is_dated = self.ages and self._asks_otherwise_now()
             self._say_answer(result)
             self.show(result)
 
+    def note_age(self):
+        """Say whether the answer is still that of the design and of what this is held against."""
+        result, busy = self.inquiry.result, self.inquiry.busy
+        if result is not None and not busy and self._asks_otherwise_now() != self._is_dated:
+            self._is_dated = not self._is_dated
+            self._say_answer(result)
+
+    def _asks_otherwise_now(self):
+        """Return whether the question that was answered would be another if it were asked now."""
+        answered = self.inquiry.answered
+        return answered is not None and answered != question_of(
+            self.kind, answered.settings, self.assessment, self.definition
+        )
+
     def _say_answer(self, result):
+        if self._is_dated:
+            again = f"Press “{self.button.label}” for the design as it is."
+            self._say(f"Before the last changes: {self.words(result)}", "note", again)
+            return
         question = self.inquiry.answered
         specification = None if question is None else question.specification
         rest = "" if specification is None else not_judged_text(specification.not_judged)

@@ -30,6 +30,7 @@ class HowSure(Asked):
     """How sure the design is to comply when production scatters."""
 
     kind = "tolerance"
+    ages = True
     before = (
         "Give the tolerances of your products, then press “How sure?”: it says how much of production "
         "complies and draws its insertion gain. It takes a specification."

@@ -61,6 +61,8 @@ class Decide(Tab):
             for part in (self.what_matters, self.how_sure, self.map, self.search):
                 part.offer()
             self.what_matters.ask()
+            for part in (self.how_sure, self.what_scatters):
+                part.note_age()
 
     def _take(self, design):
         self._inputs.take(values_of(six_figures_of(design)))

@@ -23,6 +23,7 @@ class WhatScatters(Asked):
     """
 
     kind = "sobol"
+    ages = True
     before = "Press “Which tolerance?”: it says how much of the scatter is due to each tolerance given above."
 
     def __init__(self, snapshot, exchange, how_sure):

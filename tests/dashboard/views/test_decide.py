@@ -88,6 +88,24 @@ def test_before_it_is_asked_a_question_says_what_to_press_and_draws_nothing(sess
     assert "ress “" not in view.sentence.object
 
 
+@pytest.mark.parametrize("name", ["how_sure", "what_scatters"])
+def test_an_answer_says_that_the_design_has_changed_and_no_longer_once_that_is_undone(session, summary, name):
+    view = getattr(session.view, name)
+    session.do(session.view.look, active=True)
+    session.do(view.ask)
+    answered = view.sentence.object
+    before, after = session.outcome.summary, summary("slab-track")
+    session.do(session.outcome.param.update, summary=after)
+    assert "Before the last changes: " in view.sentence.object
+    assert f"Press “{view.button.label}” for the design as it is." in view.sentence.object
+    session.do(session.outcome.param.update, summary=before)
+    assert view.sentence.object == answered
+    session.do(session.definition.param.update, summation="coherent")
+    assert "Before the last changes: " in view.sentence.object
+    session.do(view.ask)
+    assert "Before the last changes: " not in view.sentence.object
+
+
 def test_without_a_specification_it_says_what_to_do(summary, make_pictures):
     session = Session(summary, make_pictures, None)
     session.do(session.view.look, active=True)
