@@ -51,7 +51,10 @@ from dashboard.views.verify import Verify
 TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
 
-CONNECTION_LOST = "The connection to the server is lost. What you see stays, and comes back with the server."
+CONNECTION_LOST = (
+    "The connection to the server is lost. The design, the pins and all else that a study holds come back "
+    "with the server; what you change until then does not."
+)
 
 log = logging.getLogger(__name__)
 

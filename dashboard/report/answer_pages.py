@@ -17,16 +17,11 @@ from dashboard.report import plots
 from dashboard.session.answers import (
     BETTER,
     FIGURE_WORDS,
-    TITLES,
     field_label,
     scale_title,
-    settings_texts,
     with_unit,
 )
-from dashboard.session.special import curve_text
 from trackig_core.decide.questions import digest
-from trackig_core.levels.specification import not_judged_text
-from trackig_core.track.design import measured_curves
 
 MOST_ROWS = 24
 """Designs of a front that are listed [-]: what fits on a page; the CSV has all."""
@@ -104,25 +99,6 @@ def page_if_same(answer, result):
         Tables and a plot; None where other figures come out.
     """
     return answer_page(answer, result) if digest(result) == answer.digest else None
-
-
-def question_lines(answer):
-    """Return title, and what was asked, of an answer as the report prints them (str, list of str)."""
-    question = answer.question
-    design = question.design
-    numbers = [
-        f"{field.label.lower()} {with_unit(name, design.value(name), 6)}"
-        for name, field in ASKED_FIELDS.items()
-        if isinstance(design.value(name), float)
-    ]
-    numbers += [f"{field_label(name)} {curve_text(curve)}" for name, curve in measured_curves(design).items()]
-    lines = [f"Asked of: {', '.join(numbers)}, rail {design.rail.name}."]
-    if question.specification is not None:
-        rest = not_judged_text(question.specification.not_judged)
-        lines.append(f"Held against: {'; '.join(filter(None, (question.specification.name, rest)))}.")
-    lines.append(f"Insertion gain: {formats.definition_text(question.summation, question.reference)}.")
-    lines += [f"{text[0].upper()}{text[1:]}." for text in settings_texts(question)]
-    return TITLES[question.kind], lines
 
 
 def _range(_, result):

@@ -15,8 +15,8 @@ import trackig_core as tig
 from dashboard import formats, theme
 from dashboard.fields import EVERY_FIELD, EXTRA_FIELDS, LOAD
 from dashboard.report import plots
-from dashboard.report.answer_pages import question_lines
 from dashboard.session import surroundings
+from dashboard.session.answers import question_lines
 from dashboard.session.bands import bands_text, gain_in
 from dashboard.session.pins import current_design, distinct_colours, shown_designs
 from dashboard.session.results import DesignResult

@@ -3,8 +3,11 @@
 import param
 
 from dashboard.fields import ASKED_FIELDS
-from dashboard.formats import quantity_text
+from dashboard.formats import definition_text, quantity_text
+from dashboard.session.special import curve_text
 from trackig_core.bands import BAND_LABELS
+from trackig_core.levels.specification import not_judged_text
+from trackig_core.track.design import measured_curves
 
 MOST_KEPT = 20
 """Answers that a session keeps [-]: a page of the report each."""
@@ -102,6 +105,25 @@ class Answers(param.Parameterized):
     def replace_all(self, answers):
         """Put the answers of a study in the place of all."""
         self.kept = tuple(answers)
+
+
+def question_lines(answer):
+    """Return the title of an answer, and what was asked, a line of words each (str, list of str)."""
+    question = answer.question
+    design = question.design
+    numbers = [
+        f"{field.label.lower()} {with_unit(name, design.value(name), 6)}"
+        for name, field in ASKED_FIELDS.items()
+        if isinstance(design.value(name), float)
+    ]
+    numbers += [f"{field_label(name)} {curve_text(curve)}" for name, curve in measured_curves(design).items()]
+    lines = [f"Asked of: {', '.join(numbers)}, rail {design.rail.name}."]
+    if question.specification is not None:
+        rest = not_judged_text(question.specification.not_judged)
+        lines.append(f"Held against: {'; '.join(filter(None, (question.specification.name, rest)))}.")
+    lines.append(f"Insertion gain: {definition_text(question.summation, question.reference)}.")
+    lines += [f"{text[0].upper()}{text[1:]}." for text in settings_texts(question)]
+    return TITLES[question.kind], lines
 
 
 def settings_texts(question):

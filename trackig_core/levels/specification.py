@@ -303,8 +303,8 @@ class Verdict:
     def _deflection_words(self) -> str:
         """The deflection against its limit, in words."""
         margin = (self.deflection_margin or 0.0) * MILLIMETRES
-        beyond = "beyond" if self.sinks_too_far else "within"
-        return f"rail deflection {margin_text(abs(margin))} mm {beyond} its limit"
+        side = "above" if self.sinks_too_far else "below"
+        return f"rail deflection {margin_text(abs(margin))} mm {side} its limit"
 
 
 _WHICH = "are they insertion gains, or losses, which have the opposite sign?"

@@ -14,7 +14,7 @@ from dashboard import theme
 from dashboard.compute.document import NextTick
 from dashboard.compute.inquiries import Inquiry, InquiryRunner
 from dashboard.compute.workers import workers
-from dashboard.session.answers import TITLES, settings_texts
+from dashboard.session.answers import question_lines
 from dashboard.views.components import words
 from trackig_core.decide.versions import versions
 
@@ -35,11 +35,10 @@ class KeptRow(Viewer):
         self._answers, self._answer = answers, answer
         self.inquiry = Inquiry()
         self.runner = InquiryRunner(self.inquiry)
-        question = answer.question
-        asked = "; ".join(settings_texts(question))
+        title, asked = question_lines(answer)
         self.words = pn.pane.HTML(
-            f"<h3>{html.escape(TITLES[question.kind])}</h3><p>{html.escape(answer.sentence)}</p>"
-            f"<p class='note'>{html.escape(asked)}</p>",
+            f"<h3>{html.escape(title)}</h3><p>{html.escape(answer.sentence)}</p>"
+            f"<p class='note'>{html.escape(' '.join(asked))}</p>",
             stylesheets=[theme.ANSWER_CSS],
             sizing_mode="stretch_width",
             margin=(2, 12, 0, 12),

@@ -260,22 +260,22 @@ SOFT = tig.Specification([(63, 0.0)], rail_deflection_limit=2.5e-3, wheel_load=1
             -1.0,
             2.0e-3,
             True,
-            "complies, least margin 1.0 dB at 63 Hz; rail deflection 0.5 mm within its limit",
+            "complies, least margin 1.0 dB at 63 Hz; rail deflection 0.5 mm below its limit",
         ),
         (
             -1.0,
             2.5e-3,
             True,
-            "complies, least margin 1.0 dB at 63 Hz; rail deflection 0.0 mm within its limit",
+            "complies, least margin 1.0 dB at 63 Hz; rail deflection 0.0 mm below its limit",
         ),
         (
             -1.0,
             2.51e-3,
             False,
-            "fails, least margin 1.0 dB at 63 Hz; rail deflection 0.01 mm beyond its limit",
+            "fails, least margin 1.0 dB at 63 Hz; rail deflection 0.01 mm above its limit",
         ),
-        (1.0, 2.0e-3, False, "fails by 1.0 dB at 63 Hz (1 band); rail deflection 0.5 mm within its limit"),
-        (1.0, 3.0e-3, False, "fails by 1.0 dB at 63 Hz (1 band); rail deflection 0.5 mm beyond its limit"),
+        (1.0, 2.0e-3, False, "fails by 1.0 dB at 63 Hz (1 band); rail deflection 0.5 mm below its limit"),
+        (1.0, 3.0e-3, False, "fails by 1.0 dB at 63 Hz (1 band); rail deflection 0.5 mm above its limit"),
     ],
 )
 def test_a_limit_of_rail_deflection_is_part_of_the_verdict(level, deflection, complies, words):

@@ -8,8 +8,9 @@ import pytest
 
 import trackig_core as tig
 from dashboard import formats
-from dashboard.report.answer_pages import answer_page, question_lines
+from dashboard.report.answer_pages import answer_page
 from dashboard.report.html_report import html_report
+from dashboard.session.answers import question_lines
 
 BLOCK = tig.PRESETS["booted-block-low-mass"]
 LIMITS = tig.Specification([(63, -1.5), (125, -6.0)], name="Line <b>7</b>")

@@ -491,6 +491,8 @@ def test_a_kept_answer_is_part_of_the_study_and_comes_out_again(session):
     kept(session, session.view.what_matters)
     assert len(session.snapshot.answers.kept) == 1
     ((_, row),) = session.view.kept.rows
+    assert "Asked of: " in row.words.object
+    assert "boot stiffness 28 kN/mm" in row.words.object
     session.do(row.again.param.trigger, "clicks")
     assert "The same figures came out, to the last bit" in row.outcome.object
     session.do(row.remove.param.trigger, "clicks")
