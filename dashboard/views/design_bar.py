@@ -10,6 +10,7 @@ from panel.viewable import Viewer
 from dashboard import theme
 from dashboard.client.exchange import notify
 from dashboard.fields import PRESET_LABELS
+from dashboard.session.history import MOST_STEPS
 from dashboard.session.pins import PinError
 from trackig_core.names import LONGEST_NAME
 
@@ -68,8 +69,8 @@ class DesignBar(Viewer):
             on_click=self._pin,
             margin=(4, 0, 0, 0),
         )
-        browser.param.watch(steps.undo, "undone")
-        browser.param.watch(steps.redo, "redone")
+        browser.param.watch(_as_often(steps.undo), "undone")
+        browser.param.watch(_as_often(steps.redo), "redone")
 
     def _pin(self, _):
         inputs = self._inputs
@@ -101,3 +102,13 @@ SINCE_LOADED = ". Loading the page anew keeps all that a study holds, and forget
 """What of a session outlives a page: its state, which the browser remembers, and not how it came about."""
 
 STEP = {"size": "small", "variant": "text", "margin": 0, "stylesheets": [theme.TOOLTIP_CSS]}
+
+
+def _as_often(step):
+    """Return a watcher that steps as often as a count has grown: quick presses come as one change."""
+
+    def watch(event):
+        for _ in range(min(event.new - event.old, MOST_STEPS)):
+            step()
+
+    return watch

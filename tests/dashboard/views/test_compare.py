@@ -245,6 +245,19 @@ def test_a_drag_is_undone_in_one_step_and_redone(bar):
     assert bar.bar.redo.disabled
 
 
+def test_quick_presses_of_the_keys_that_come_as_one_are_a_step_each(bar):
+    for position, mass in enumerate((50.0, 60.0, 70.0)):
+        bar.now = 10.0 * position
+        bar.inputs.block_mass = mass
+    bar.browser.undone += 2
+    assert bar.inputs.block_mass == 50.0
+    bar.browser.redone += 2
+    assert bar.inputs.block_mass == 70.0
+    # a count that nobody can have pressed ends all the same
+    bar.browser.undone += 10**15
+    assert bar.inputs.to_design() == tig.PRESETS["booted-block-low-mass"]
+
+
 def test_a_preset_is_one_step(bar):
     bar.inputs.preset = "slab-track"
     bar.bar.undo.param.trigger("clicks")
