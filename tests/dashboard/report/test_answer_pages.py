@@ -107,7 +107,7 @@ def test_an_answer_that_was_opened_and_not_asked_again_says_so(summary):
     forged = dataclasses.replace(answer, sentence="<script>alert(1)</script>")
     text = report(summary, (forged,))
     assert "<script>" not in text
-    assert "ask again on the tab Decide" in text
+    assert "press “Ask again” on the tab Decide" in text
 
 
 def test_what_was_measured_of_the_design_is_named_in_what_was_asked():
