@@ -510,9 +510,9 @@ def pages_of(answers):
 
     Returns
     -------
-    dict of str to AnswerPage
-        Tables and plots by digest. Of an answer to which other figures come out, or none, there is no page,
-        and standard error says so.
+    dict of str to (AnswerPage or str)
+        Tables and plots by digest. Of an answer to which other figures come out, or none, there are words
+        that say so, as standard error does.
 
     Raises
     ------
@@ -520,7 +520,7 @@ def pages_of(answers):
         If the user pressed Ctrl+C.
     """
     # plots are slow to load
-    from dashboard.report.answer_pages import page_if_same
+    from dashboard.report.answer_pages import page_again
 
     pages = {}
     for answer in answers:
@@ -530,14 +530,12 @@ def pages_of(answers):
                 result = answer.question.ask(**how)
                 if how["cancelled"]():  # a search returns what it has found until then
                     raise tig.SolveCancelled("the report was cancelled")
-                page = page_if_same(answer, result)
+                page = page_again(answer, result)
         except (ValueError, KeyError) as error:
-            sys.stderr.write(f"{said}: not asked again: {error.args[0]}; the report has its words alone\n")
-            continue
-        if page is None:
-            sys.stderr.write(f"{said}: other figures come out now; the report has its words alone\n")
-        else:
-            pages[answer.digest] = page
+            page = f"It could not be asked again: {error.args[0]}"
+        pages[answer.digest] = page
+        if isinstance(page, str):
+            sys.stderr.write(f"{said}, in the report by its words alone: {page}\n")
     return pages
 
 

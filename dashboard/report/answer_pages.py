@@ -22,6 +22,7 @@ from dashboard.session.answers import (
     with_unit,
 )
 from trackig_core.decide.questions import digest
+from trackig_core.decide.versions import versions
 
 MOST_ROWS = 24
 """Designs of a front that are listed [-]: what fits on a page; the CSV has all."""
@@ -83,7 +84,7 @@ def answer_page(answer, result):
     return PAGES[answer.question.kind](answer, result)
 
 
-def page_if_same(answer, result):
+def page_again(answer, result):
     """Return what the report shows of an answer to a question that was asked again.
 
     Parameters
@@ -95,10 +96,18 @@ def page_if_same(answer, result):
 
     Returns
     -------
-    AnswerPage or None
-        Tables and a plot; None where other figures come out.
+    AnswerPage or str
+        Tables and a plot; where other figures came out, words that say so, and what the answer is now.
     """
-    return answer_page(answer, result) if digest(result) == answer.digest else None
+    if digest(result) == answer.digest:
+        return answer_page(answer, result)
+    changed = [
+        f"{name} {was}, now {versions().get(name, 'none')}"
+        for name, was in answer.versions.items()
+        if versions().get(name) != was
+    ]
+    because = f": it was computed with {'; '.join(changed)}" if changed else " on this machine"
+    return f"Other figures came out{because}. The answer is now: {result}"
 
 
 def _range(_, result):

@@ -90,8 +90,9 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None, p
         The day of the report.
     version : str
         Version of the software.
-    pages : mapping of str to AnswerPage, optional
-        What is shown of the study's answers by their digests; of others there are words alone.
+    pages : mapping of str to (AnswerPage or str), optional
+        What is shown of the study's answers by their digests, or why there is nothing; of others there are
+        words alone.
     left_out : dashboard.teaching.left_out.LeftOut, optional
         What the simplified model leaves out of the current design, where that was asked for.
     particulars : Particulars, optional

@@ -69,7 +69,7 @@ class Answers(param.Parameterized):
 
     @property
     def pages(self):
-        """What the report shows of each answer by its digest; none of one that was opened and not asked."""
+        """What the report shows of each answer by its digest; of one opened and not asked, nothing."""
         digests = {each.digest for each in self.kept}
         return {digest: page for digest, page in self._pages.items() if digest in digests}
 
@@ -95,7 +95,7 @@ class Answers(param.Parameterized):
         self.kept = (*others, answer)
 
     def note_page(self, answer, page):
-        """Note what the report shows of an answer that came out again as it was kept."""
+        """Note what the report shows of an answer that was asked again."""
         self._pages = {**self.pages, answer.digest: page}
 
     def remove(self, answer):

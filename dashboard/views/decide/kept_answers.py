@@ -16,7 +16,6 @@ from dashboard.compute.inquiries import Inquiry, InquiryRunner
 from dashboard.compute.workers import workers
 from dashboard.session.answers import question_lines
 from dashboard.views.components import words
-from trackig_core.decide.versions import versions
 
 
 class KeptRow(Viewer):
@@ -68,20 +67,14 @@ class KeptRow(Viewer):
             self._say(f"Asked again{done} …", "note")
 
     async def _compare(self, event):
-        """Say whether the same figures came out; if so, the report can show them."""
+        """Say whether the same figures came out, here and in the report."""
         loop = asyncio.get_running_loop()
         page = await loop.run_in_executor(workers(), page_of, self._answer, event.new)
-        if page is not None:
-            self._answers.note_page(self._answer, page)
+        self._answers.note_page(self._answer, page)
+        if isinstance(page, str):
+            self._say(page, "problem")
+        else:
             self._say("The same figures came out, to the last bit.", "fine")
-            return
-        changed = [
-            f"{name} {was}, now {versions().get(name, 'none')}"
-            for name, was in self._answer.versions.items()
-            if versions().get(name) != was
-        ]
-        because = f": it was computed with {'; '.join(changed)}" if changed else " on this machine"
-        self._say(f"Other figures came out{because}. The answer is now: {event.new}", "problem")
 
     def _say(self, words, kind):
         self.outcome.object = f'<p role="status" class="{kind}">{html.escape(words)}</p>'
@@ -98,11 +91,11 @@ class KeptRow(Viewer):
 
 
 def page_of(answer, result):
-    """Return what the report shows of an answer that came out again, or None."""
+    """Return what the report shows of an answer that was asked again."""
     # plots are slow to load
-    from dashboard.report.answer_pages import page_if_same
+    from dashboard.report.answer_pages import page_again
 
-    return page_if_same(answer, result)
+    return page_again(answer, result)
 
 
 class KeptAnswers(Viewer):

@@ -108,6 +108,9 @@ def test_an_answer_that_was_opened_and_not_asked_again_says_so(summary):
     text = report(summary, (forged,))
     assert "<script>" not in text
     assert "press “Ask again” on the tab Decide" in text
+    text = report(summary, (answer,), {answer.digest: "Others came out: 1 < 2."})
+    assert "Others came out: 1 &lt; 2." in text
+    assert "press “Ask again” on the tab Decide" not in text
 
 
 def test_what_was_measured_of_the_design_is_named_in_what_was_asked():
