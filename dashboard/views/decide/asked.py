@@ -79,6 +79,16 @@ class Asked:
         """Return what is asked about the current design [SI units]."""
         return {}
 
+    def varied(self, settings):  # noqa: ARG002
+        """Return names of what the answer is about whatever the design has there (iterable of str).
+
+        Parameters
+        ----------
+        settings : mapping
+            What was asked.
+        """
+        return ()
+
     def ask(self, *_):
         """Ask the question as it stands."""
         try:
@@ -109,23 +119,28 @@ class Asked:
         result = self.inquiry.result
         self.answered_row.visible = result is not None
         if result is not None:
-            self._is_dated = self.ages and self._asks_otherwise_now()
+            self._is_dated = self._is_of_another()
             self._say_answer(result)
             self.show(result)
 
     def note_age(self):
         """Say whether the answer is still that of the design and of what this is held against."""
         result, busy = self.inquiry.result, self.inquiry.busy
-        if result is not None and not busy and self._asks_otherwise_now() != self._is_dated:
+        if result is not None and not busy and self._is_of_another() != self._is_dated:
             self._is_dated = not self._is_dated
             self._say_answer(result)
 
-    def _asks_otherwise_now(self):
-        """Return whether the question that was answered would be another if it were asked now."""
+    def _is_of_another(self):
+        """Return whether the answer ages, and would be one to another question if it were asked for now."""
         answered = self.inquiry.answered
-        return answered is not None and answered != question_of(
-            self.kind, answered.settings, self.assessment, self.definition
-        )
+        if not self.ages or answered is None:
+            return False
+        settings, design = answered.settings, self.assessment.current.design
+        try:
+            design = design.replace(**{name: answered.design.value(name) for name in self.varied(settings)})
+        except tig.DesignError:
+            return True
+        return answered != question_of(self.kind, settings, self.assessment, self.definition, design)
 
     def _say_answer(self, result):
         if self._is_dated:

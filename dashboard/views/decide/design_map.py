@@ -23,6 +23,7 @@ class Map(Asked):
     """A figure over two fields, with the edge of compliance; a tap takes the design."""
 
     kind = "map"
+    ages = True
     before = "Choose two numbers and a figure, then press “Draw the map”: it shows where designs comply."
     hint = (
         "Tap a design to take it to the sliders, or move to it with the arrow keys and press Enter; "
@@ -79,6 +80,10 @@ class Map(Asked):
         settings = {"x_field": self.x.value, "y_field": self.y.value, "figures": figures}
         simplified = is_simplified(self.assessment.current.design)
         return settings if simplified else settings | {"points": SURROUNDED_POINTS}
+
+    def varied(self, settings):
+        """Return both fields: the map is of all that they may be."""
+        return (settings["x_field"], settings["y_field"])
 
     def show(self, result):
         """Draw the map."""

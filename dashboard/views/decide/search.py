@@ -1,5 +1,6 @@
 """Designs that comply, and the best of them."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -33,6 +34,7 @@ class Search(Asked):
     """Designs that comply, on the front of margin against what else counts."""
 
     kind = "find"
+    ages = True
     before = (
         "Choose which numbers are free, then press “Find designs”: the best ones come as pictures while it "
         "searches. It takes a specification."
@@ -150,6 +152,13 @@ class Search(Asked):
             prices["fastener_spacing"] *= -1
             settings["cost"] = {name: price for name, price in prices.items() if price}
         return settings
+
+    def varied(self, settings):
+        """Return what was free, and all fields of parts that were chosen from the catalogue."""
+        fields = [each.name for each in dataclasses.fields(tig.TrackDesign)]
+        kinds = settings.get("choices", {})
+        chosen = [name for name in fields if name.partition("_")[0] in kinds]
+        return (*settings["free"], *chosen)
 
     def _offer_prices(self, *_):
         for box in self.prices.values():

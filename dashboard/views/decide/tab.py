@@ -61,7 +61,7 @@ class Decide(Tab):
             for part in (self.what_matters, self.how_sure, self.map, self.search):
                 part.offer()
             self.what_matters.ask()
-            for part in (self.how_sure, self.what_scatters):
+            for part in (self.what_matters, self.how_sure, self.what_scatters, self.map, self.search):
                 part.note_age()
 
     def _take(self, design):

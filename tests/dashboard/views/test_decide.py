@@ -88,7 +88,7 @@ def test_before_it_is_asked_a_question_says_what_to_press_and_draws_nothing(sess
     assert "ress “" not in view.sentence.object
 
 
-@pytest.mark.parametrize("name", ["how_sure", "what_scatters"])
+@pytest.mark.parametrize("name", ["how_sure", "what_scatters", "map", "search"])
 def test_an_answer_says_that_the_design_has_changed_and_no_longer_once_that_is_undone(session, summary, name):
     view = getattr(session.view, name)
     session.do(session.view.look, active=True)
@@ -222,6 +222,33 @@ def test_a_tap_on_the_map_takes_the_design_there(session):
     assert taken.boot_stiffness == pytest.approx(expected.boot_stiffness, rel=1e-5)
     assert taken.block_mass == pytest.approx(expected.block_mass, rel=1e-5)
     assert taken.pad_stiffness == BLOCK.pad_stiffness
+
+
+def test_a_design_that_is_taken_from_an_answer_leaves_it_as_it_is_and_another_wheel_does_not(
+    session, fake_picture
+):
+    def solve():
+        session.outcome.summary = fake_picture(session.inputs.to_design())
+
+    session.do(session.view.look, active=True)
+    design_map, search = session.view.map, session.view.search
+    search.chosen.value = ["rail"]
+    session.do(design_map.ask)
+    session.do(search.ask)
+    answered = design_map.sentence.object, search.sentence.object
+    session.do(design_map._tapped, 23.0, 111.0)
+    session.do(solve)
+    assert session.assessment.current.design != BLOCK
+    assert (design_map.sentence.object, search.sentence.object) == answered
+    found = search._found()
+    session.do(session.view._take, found.many.design(int(found.front[-1])))
+    session.do(solve)
+    assert session.assessment.current.design.rail != BLOCK.rail
+    assert search.sentence.object == answered[1]
+    assert "Before the last changes: " in design_map.sentence.object
+    session.inputs.wheel_mass += 1.0
+    session.do(solve)
+    assert "Before the last changes: " in search.sentence.object
 
 
 def test_a_map_shows_both_edges_and_the_pins(session, summary):
