@@ -52,8 +52,9 @@ TITLE = "trackig"
 SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bewes and Sica (2021)"
 
 CONNECTION_LOST = (
-    "The connection to the server is lost. The design, the pins and all else that a study holds come back "
-    "with the server; what you change until then does not."
+    "The connection to the server is lost. The design, the pins, all else that a study holds and what stands "
+    "in boxes come back with the server. What you change until then does not, nor do answers that were not "
+    "kept."
 )
 
 log = logging.getLogger(__name__)

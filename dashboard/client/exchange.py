@@ -105,7 +105,10 @@ class Exchange(Scripted):
         Whether the server is busy; by default it has this session alone.
     """
 
-    kept = param.List(default=["", ""], doc="Query string of the link, and the study as TOML.")
+    kept = param.List(
+        default=["", "", ""],
+        doc="Query string of the link, the study as TOML, and what stands in boxes as JSON.",
+    )
     session = param.String(default="", doc="Tells this session from all others.")
 
     _esm = (Path(__file__).parent / "scripts" / "exchange.js").read_text(encoding="utf-8")
@@ -129,7 +132,8 @@ class Exchange(Scripted):
 
     def note(self):
         """Have the browser keep what there is now."""
-        self.kept = [self._snapshot.query(), self._snapshot.study().to_toml()]
+        snapshot = self._snapshot
+        self.kept = [snapshot.query(), snapshot.study().to_toml(), snapshot.boxes.typed]
 
     async def _follow(self, *_):
         """Note what is kept, once changes rest; the tab is noted at once."""
@@ -183,8 +187,8 @@ class Exchange(Scripted):
     def handle_message(self, message):
         """Do what the browser asks for."""
         match message:
-            case {"kind": "restore", "data": str(data)}:
-                self._restore(data)
+            case {"kind": "restore", "data": str(data), "typed": str(typed)}:
+                self._restore(data, typed)
             case {"kind": "recalled", "data": str(data)}:
                 self._recall(data)
             case {"kind": "copying"} if not self._copying:
@@ -235,13 +239,14 @@ class Exchange(Scripted):
             notify("warning", NOT_RECALLED)
             self._remember()
 
-    def _restore(self, data):
+    def _restore(self, data, typed):
         try:
             self._snapshot.open(data)
         except ValueError:
             # it was in the browser's memory, where anybody may have written
             log.info("A page's memory was refused", exc_info=True)
             notify("warning", NOT_RESTORED)
+        self._snapshot.boxes.put_back(typed)
         self._snapshot.steps.restart()
         self.note()
         self._send_msg({"kind": "keep"})

@@ -10,6 +10,7 @@ from dashboard.fields import INPUTS
 from dashboard.persistence import link, studies
 from dashboard.session.answers import Answers
 from dashboard.session.bands import PAPER
+from dashboard.session.boxes import Boxes
 from dashboard.session.steps import Steps
 
 
@@ -35,6 +36,8 @@ class SessionSnapshot(param.Parameterized):
         What of it can be undone.
     answers : Answers
         Questions that were asked, and what came out.
+    boxes : Boxes
+        What stands in boxes and is part of no link and no study.
     """
 
     tab = param.Selector(objects=[""], doc="The tab that is open.")
@@ -43,7 +46,7 @@ class SessionSnapshot(param.Parameterized):
         super().__init__()
         self.inputs, self.definition, self.pins, self.assessment = inputs, definition, pins, assessment
         self.steps = Steps(inputs, definition, pins, assessment)
-        self.answers = Answers()
+        self.answers, self.boxes = Answers(), Boxes()
         self.param.tab.objects = list(tabs)
         self.tab = self.param.tab.objects[0]
 
@@ -54,6 +57,7 @@ class SessionSnapshot(param.Parameterized):
         self.pins.param.watch(callback, ["pinned", "base", "alone"])
         self.assessment.param.watch(callback, ["specification", "source", "measured", "title"])
         self.answers.param.watch(callback, "kept")
+        self.boxes.param.watch(callback, "typed")
         self.param.watch(callback, "tab")
 
     @property

@@ -98,7 +98,9 @@ class DesignBar(Viewer):
         )
 
 
-SINCE_LOADED = ". Loading the page anew keeps all that a study holds, and forgets the steps."
+SINCE_LOADED = (
+    ". Loading the page anew keeps all that a study holds and what stands in boxes, and forgets the steps."
+)
 """What of a session outlives a page: its state, which the browser remembers, and not how it came about."""
 
 STEP = {"size": "small", "variant": "text", "margin": 0, "stylesheets": [theme.TOOLTIP_CSS]}

@@ -55,6 +55,7 @@ class SaveAndShare(Tab):
         }
         for box in self.particulars.values():
             box.param.watch(_check_name, "value")
+        snapshot.boxes.keep(left_out=self.left_out, **self.particulars)
         self.sheet = button("Data sheet, HTML", "article", on_click=self._save_sheet)
         self.sheet_design = None
         self._sheet_place = pmui.Row(margin=0)

@@ -298,7 +298,9 @@ def test_frames_beside_a_long_question(served, row, button):
         visitor = await Visitor(served.host + "/dashboard").open()
         other = await Visitor(served.host + "/dashboard?tab=decide").open(drawn=False)
         study = tig.Study(tig.PRESETS["booted-block-low-mass"], specification=DEMAND)
-        await other.patch(told(other.component("kept"), {"kind": "restore", "data": study.to_toml()}))
+        await other.patch(
+            told(other.component("kept"), {"kind": "restore", "data": study.to_toml(), "typed": ""})
+        )
         shares = []
         for _ in range(3):
             alone, beside = [], []

@@ -200,7 +200,8 @@ def test_the_status_line_keeps_the_focus_when_it_says_something_new(dashboard):
 
 def test_a_reload_keeps_what_is_there_and_says_that_it_forgets_the_steps(dashboard):
     undo = dashboard.get_by_role(
-        "button", name="Undo (Ctrl+Z). Loading the page anew keeps all that a study holds"
+        "button",
+        name="Undo (Ctrl+Z). Loading the page anew keeps all that a study holds and what stands in boxes",
     )
     mass = dashboard.get_by_role("textbox", name="Block mass, kg: type a number")
     mass.fill("107")
@@ -211,16 +212,22 @@ def test_a_reload_keeps_what_is_there_and_says_that_it_forgets_the_steps(dashboa
     dashboard.get_by_role("button", name="Take what is pasted").click()
     limit = dashboard.get_by_role("textbox", name="Limit, dB, 63 Hz")
     expect(limit).to_have_value("-4")
+    open_tab(dashboard, "Decide")
+    tolerance = dashboard.get_by_role("textbox", name="Block mass, ± %").last
+    tolerance.fill("3,5")
+    tolerance.press("Enter")
     dashboard.wait_for_function(
         """() => {
-            const {study, query} = JSON.parse(sessionStorage.getItem("trackig"))
+            const {study, query, typed} = JSON.parse(sessionStorage.getItem("trackig"))
             return study.includes("[specification]") && query.includes("block_mass=107&") &&
-                query.includes("tab=specification")
+                query.includes("tab=decide") && typed.includes("3,5")
         }"""
     )
     dashboard.reload()
     wait_until_solved(dashboard)
     expect(mass).to_have_value("107")
+    expect(tolerance).to_have_value("3,5")
+    open_tab(dashboard, "Specification")
     expect(limit).to_have_value("-4")
     expect(undo).to_be_disabled()
 

@@ -23,11 +23,11 @@ function remembered() {
 }
 
 function keep(model) {
-  const [query, study] = model.kept
+  const [query, study, typed] = model.kept
   if (query === "") return
   history.replaceState(null, "", `${location.pathname}?${query}`)
   try {
-    const memory = {session: model.session, query: location.search, study}
+    const memory = {session: model.session, query: location.search, study, typed}
     sessionStorage.setItem(MEMORY, JSON.stringify(memory))
   } catch {
     // a browser that refuses to remember still has the address bar
@@ -37,8 +37,8 @@ function keep(model) {
 function resume(model) {
   const memory = remembered()
   const ours = memory !== null && memory.session !== model.session && memory.query === location.search
-  if (ours && memory.study !== model.kept[1]) {
-    model.send_msg({kind: "restore", data: memory.study})
+  if (ours && (memory.study !== model.kept[1] || memory.typed !== model.kept[2])) {
+    model.send_msg({kind: "restore", data: memory.study, typed: memory.typed ?? ""})
   } else {
     keep(model)
   }

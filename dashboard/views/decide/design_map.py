@@ -57,6 +57,7 @@ class Map(Asked):
         self.assessment.param.watch(NextTick(self._mark), "results")
         self.button.label = "Draw the map"
         self.figure.param.watch(self.ask_again, "value")
+        snapshot.boxes.keep(across=self.x, up=self.y, map_figure=self.figure)
 
     def offer(self):
         """Offer the numbers that the current design has."""

@@ -80,6 +80,14 @@ class HowSure(Asked):
             "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
         )
         self.in_explore.param.watch(self._draw_in_explore, "value")
+        snapshot.boxes.keep(
+            shape=self.shape,
+            samples=self.samples,
+            seed=self.seed,
+            specimens=self.pasted,
+            in_explore=self.in_explore,
+        )
+        self.tolerances.keep(snapshot.boxes, "tolerance")
 
     def _read(self, *_):
         """Take the table that was pasted in the place of the tolerances of what it holds."""

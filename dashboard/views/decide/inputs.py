@@ -178,7 +178,7 @@ class ShareBoxes:
 
     def __init__(self, shares, around, exchange, changed=None, **words):
         self._around, self._exchange, self._changed = around, exchange, changed
-        self.boxes = {}
+        self._keep, self.boxes = None, {}
         self.row = pn.FlexBox(margin=(0, 12), **words)
         self._add(shares)
 
@@ -188,6 +188,21 @@ class ShareBoxes:
             if self._changed is not None:
                 box.param.watch(self._changed, "value")
         self.row.objects = list(self.boxes.values())
+        if self._keep is not None:
+            self._keep(shares)
+
+    def keep(self, boxes, what):
+        """Keep what stands in all of them, and in those that are added.
+
+        Parameters
+        ----------
+        boxes : Boxes
+            Where it is kept.
+        what : str
+            What the shares are, by which they are kept.
+        """
+        self._keep = lambda names: boxes.keep(**{f"{what} of {name}": self.boxes[name] for name in names})
+        self._keep(self.boxes)
 
     def offer(self, design):
         """Have boxes for those numbers of vehicle and ground that a design has."""

@@ -128,6 +128,15 @@ class Search(Asked):
         self._offer_prices()
         self._warn()
         self.inquiry.param.watch(NextTick(self._grow), "so_far")
+        snapshot.boxes.keep(
+            vehicle_and_site=self.given,
+            free=self.free,
+            chosen=self.chosen,
+            against=self.against,
+            sinks_at_most=self.deflection,
+            search_seed=self.seed,
+            **{f"price of {name}": box for name, box in self.prices.items()},
+        )
 
     def offer(self, *_):
         """Offer the numbers that the current design has, those of vehicle and site only when asked for."""

@@ -45,7 +45,7 @@ class Decide(Tab):
 
     def __init__(self, snapshot, exchange, feasibility, production, shelf):
         super().__init__()
-        self._inputs, self._pins = snapshot.inputs, snapshot.pins
+        self._inputs, self._pins, self._boxes = snapshot.inputs, snapshot.pins, snapshot.boxes
         self.how_far = HowFar(snapshot, exchange, feasibility)
         self.what_matters = WhatMatters(snapshot, exchange)
         self.how_sure = HowSure(snapshot, exchange, production)
@@ -60,6 +60,7 @@ class Decide(Tab):
         if self.in_sight:
             for part in (self.what_matters, self.how_sure, self.map, self.search):
                 part.offer()
+            self._boxes.put_waiting()
             self.what_matters.ask()
             for part in (self.what_matters, self.how_sure, self.what_scatters, self.map, self.search):
                 part.note_age()

@@ -33,6 +33,8 @@ class WhatMatters(Asked):
         self.change.param.watch(self._change_all, "value")
         self.one_by_one.param.watch(self._offer_boxes, "value")
         self.figure.param.watch(self._draw, "value")
+        snapshot.boxes.keep(change=self.change, one_by_one=self.one_by_one)
+        self.changes_of.keep(snapshot.boxes, "change")
 
     def _change_all(self, event):
         self.changes_of.change_all(event.new)

@@ -24,6 +24,12 @@ def exchange(session):
     return Exchange(session.snapshot)
 
 
+def restored(other):
+    """Return what a browser sends back that showed another session before."""
+    _, study, typed = Exchange(other.snapshot).kept
+    return {"kind": "restore", "data": study, "typed": typed}
+
+
 def handle_message(exchange, message):
     """Have a message handled where changes are followed: in a loop, as a session has."""
 
@@ -61,7 +67,7 @@ def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatc
         pace = Pace()
         pace.drew(drawing)
         exchange = Exchange(session.snapshot, pace=pace)
-        assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml()]
+        assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml(), ""]
         noted = []
         exchange.param.watch(lambda event: noted.append(event.new), "kept")
         for stiffness in range(30, 40):
@@ -73,7 +79,7 @@ def test_link_and_study_are_there_at_once_and_follow_at_rest(session, monkeypatc
         await until_at_rest()
         assert set(waited) == {getattr(exchange_module, at_rest)}
         assert len(waited) == 2, "changes that come while others rest are waited for too"
-        assert noted == [[session.snapshot.query(), session.snapshot.study().to_toml()]]
+        assert noted == [[session.snapshot.query(), session.snapshot.study().to_toml(), ""]]
         assert "boot_stiffness=39" in noted[0][0]
 
     asyncio.run(run())
@@ -92,16 +98,16 @@ def test_what_a_browser_remembers_is_restored(session, exchange, sent, summary):
     other = type(session)(summary)
     other.assessment.specification = LIMITS
     other.pin("slab-track", "Slab")
-    handle_message(exchange, {"kind": "restore", "data": other.snapshot.study().to_toml()})
+    handle_message(exchange, restored(other))
     assert session.assessment.specification == LIMITS
     assert [pin.name for pin in session.pins.pinned] == ["Slab"]
-    assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml()]
+    assert exchange.kept == [session.snapshot.query(), session.snapshot.study().to_toml(), ""]
     assert sent == [{"kind": "keep"}]
 
 
 def test_a_memory_that_is_no_study_changes_nothing_and_is_told(session, exchange, sent, told):
     before = session.snapshot.study()
-    exchange.handle_message({"kind": "restore", "data": "<script>alert(1)</script>"})
+    exchange.handle_message({"kind": "restore", "data": "<script>alert(1)</script>", "typed": "<script>"})
     assert session.snapshot.study() == before
     assert told == [("warning", exchange_module.NOT_RESTORED)]
     assert sent == [{"kind": "keep"}]
@@ -116,7 +122,8 @@ def test_a_memory_that_is_no_study_changes_nothing_and_is_told(session, exchange
         [],
         {},
         {"kind": "restore"},
-        {"kind": "restore", "data": 7},
+        {"kind": "restore", "data": 7, "typed": ""},
+        {"kind": "restore", "data": "", "typed": 7},
         {"kind": "study", "data": "text where bytes are due"},
         {"kind": "specification"},
         {"kind": "__class__", "data": b""},

@@ -85,7 +85,9 @@ def test_the_pages_of_a_process_that_is_killed_come_back_with_specification_and_
 
     async def restore():
         visitor = await Visitor(served.host + "/tools/dashboard").open()
-        await visitor.patch(told(visitor.component("kept"), {"kind": "restore", "data": study.to_toml()}))
+        await visitor.patch(
+            told(visitor.component("kept"), {"kind": "restore", "data": study.to_toml(), "typed": ""})
+        )
         while True:
             for event in (await visitor.receive("PATCH-DOC"))["events"]:
                 if event.get("attr") == "kept":

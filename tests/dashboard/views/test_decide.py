@@ -542,6 +542,37 @@ def test_an_opened_answer_is_listed_and_a_false_one_is_found_out(session):
     assert session.snapshot.answers.pages[forged.digest].startswith(said)
 
 
+def test_what_was_typed_is_there_again_in_another_session(session, summary, make_pictures):
+    def boxes(view):
+        return [
+            *view.how_sure.tolerances.boxes.values(),
+            *view.what_matters.changes_of.boxes.values(),
+            *(view.how_sure.samples, view.how_sure.shape, view.map.x, view.map.figure),
+            *(view.search.free, view.search.against, *view.search.prices.values()),
+        ]
+
+    def values(view):
+        return [box.value for box in boxes(view)]
+
+    view, first = session.view, values(session.view)
+    session.do(view.look, active=True)
+    view.how_sure.tolerances.boxes["pad_stiffness"].value = "7,5"
+    session.do(setattr, view.what_matters.change, "value", "20")
+    session.do(setattr, view.what_matters.changes_of.boxes["block_mass"], "value", "5")
+    view.how_sure.samples.value = 1000
+    view.how_sure.shape.value = "normal"
+    view.map.x.value, view.map.figure.value = "pad_stiffness", "deflection"
+    view.search.free.value = ["boot_stiffness"]
+    view.search.against.value = "cost"
+    view.search.prices["block_mass"].value = "2"
+    # as they were: five tolerances and the other price
+    assert sum(a == b for a, b in zip(values(view), first, strict=True)) == 6
+    other = Session(summary, make_pictures, LIMITS)
+    other.do(other.snapshot.boxes.put_back, session.snapshot.boxes.typed)
+    assert values(other.view) == values(view)
+    assert other.view.search.prices["block_mass"].visible
+
+
 @pytest.mark.parametrize("name", ["how_far", "what_matters", "how_sure", "map", "search", "what_scatters"])
 def test_every_answer_can_be_saved_with_all_that_obtains_it_again(session, name):
     view = getattr(session.view, name)
