@@ -1,8 +1,10 @@
 """How sure a design is to comply when its fields scatter as production makes them.
 
 SI units, dB. The share of complying samples estimates the probability of compliance; its confidence interval
-is Wilson's for independent samples, which quasi-random ones beat, so it is on the safe side. Source: Wilson
-(1927), "Probable inference, the law of succession, and statistical inference".
+is Wilson's for independent samples, which quasi-random ones beat, so it is on the safe side. Whether a halved
+scatter helps is McNemar's question about the same samples twice, answered exactly. Sources: Wilson (1927),
+"Probable inference, the law of succession, and statistical inference"; McNemar (1947), "Note on the sampling
+error of the difference between correlated proportions or percentages".
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 from scipy.stats import binomtest
 
-from trackig_core.arrays import RealArray
+from trackig_core.arrays import BoolArray, RealArray
 from trackig_core.decide.requirements import Requirements
 from trackig_core.decide.solving import How, part_of, solve_designs
 from trackig_core.decide.tolerances import (
@@ -71,6 +73,11 @@ class ToleranceResult:
         Its governing margin.
     tightened : dict of str to float
         Probability of compliance with the scatter of one factor halved, the greatest gain first [-].
+    helpful : tuple of str
+        Factors whose halved scatter helps: with it more of the same samples comply than chance explains, and
+        not fewer than with the best of them. Empty where none helps.
+    design_complies : bool
+        Whether the design as it is stated complies. If not, less scatter brings production closer to failing.
     many : BatchSolution
         The samples, solved.
     margins : numpy.ndarray (samples,) [dB]
@@ -88,6 +95,8 @@ class ToleranceResult:
     worst_corner: TrackDesign
     worst_margin: float
     tightened: dict[str, float]
+    helpful: tuple[str, ...]
+    design_complies: bool
     many: BatchSolution = field(repr=False)
     margins: RealArray = field(repr=False)
 
@@ -98,9 +107,8 @@ class ToleranceResult:
 
     @property
     def tighten_first(self) -> str | None:
-        """Factor whose halved scatter helps most; None if every sample complies, or none even then."""
-        first, share = next(iter(self.tightened.items()))
-        return None if self.complying == self.samples or share == 0 else first
+        """Factor whose halved scatter helps most; None if none helps."""
+        return next(iter(self.helpful), None)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a pandas.DataFrame, one row a sample: fields [SI], figures, governing margin [dB]."""
@@ -118,11 +126,21 @@ class ToleranceResult:
         """Return one sentence."""
         low, high = (f"{100 * end:.1f}" for end in self.confidence_interval)
         said = sentence(f"{how_much(self.probability)} of production ({low}–{high} %) complies")
-        if self.tighten_first is None:
-            return f"{said}." if self.complying else f"{said}, whichever scatter is halved."
-        which = self.tighten_first
-        words = "scatter of the tested specimens" if which == "production" else spoken(which)
-        return f"{said}; tighten the {words} first."
+        if not self.design_complies:
+            return (
+                f"{said}; the design as stated does not."
+                if self.complying
+                else f"{said}, nor does the design."
+            )
+        if self.helpful:
+            return f"{said}; tighten {' or '.join(map(_spoken, self.helpful))} first."
+        if self.complying == self.samples:
+            return f"{said}."
+        return f"{said}{', and no more' if self.complying else ','} whichever scatter is halved."
+
+
+def _spoken(factor: str) -> str:
+    return "the scatter of the tested specimens" if factor == "production" else f"the {spoken(factor)}"
 
 
 def tolerance(
@@ -193,7 +211,7 @@ def tolerance(
     interval = binomtest(complying, samples).proportion_ci(CONFIDENCE, method="wilson")
     corner, worst = _worst_corner(design, required, factors, how)
     rest = part_of(how, samples / work, 1.0)
-    tightened = _tightened(design, required, factors, shares[:tried], rest)
+    halved = _halved(design, required, factors, shares[:tried], rest)
     return ToleranceResult(
         design=design,
         factors=tuple(each.name for each in factors),
@@ -205,16 +223,18 @@ def tolerance(
         margin_percentiles=np.percentile(margins, PERCENTILES),
         worst_corner=corner,
         worst_margin=worst,
-        tightened=tightened,
+        tightened={name: float(complies.mean()) for name, complies in halved.items()},
+        helpful=_helpful(required.complies(many)[:tried], halved),
+        design_complies=bool(required.complies(solve_many(design))[0]),
         many=many,
         margins=margins,
     )
 
 
-def _tightened(
+def _halved(
     design: TrackDesign, required: Requirements, factors: Sequence[Factor], shares: RealArray, how: How
-) -> dict[str, float]:
-    """Return the probability of compliance with the scatter of one factor halved, the greatest gain first."""
+) -> dict[str, BoolArray]:
+    """Return which samples (n,) comply with the scatter of one factor halved, the greatest gain first."""
     halved = [factor.halved(shares[:, number]) for number, factor in enumerate(factors)]
     numbers = [number for number, values in enumerate(halved) if values]
     if not numbers:
@@ -226,10 +246,27 @@ def _tightened(
     }
     many = solve_designs(design, columns, how)
     margins = required.governing_margin(many).reshape(len(numbers), -1)
-    probability = required.complies(many).reshape(margins.shape).mean(axis=1)
+    complies = required.complies(many).reshape(margins.shape)
     # of equal gains, the one that lifts the weak end of production
-    order = np.lexsort((np.percentile(margins, PERCENTILES[0], axis=1), probability))[::-1]
-    return {factors[numbers[place]].name: float(probability[place]) for place in order}
+    order = np.lexsort((np.percentile(margins, PERCENTILES[0], axis=1), complies.mean(axis=1)))[::-1]
+    return {factors[numbers[place]].name: complies[place] for place in order}
+
+
+def _helpful(as_drawn: BoolArray, halved: Mapping[str, BoolArray]) -> tuple[str, ...]:
+    """Return the factors whose halved scatter helps, those that are as good as the best."""
+    best = next(iter(halved.values()), as_drawn)
+    # as many questions are asked as there are factors: chance may not answer one of them
+    doubt = (1 - CONFIDENCE) / max(len(halved), 1)
+    helping = (name for name, complies in halved.items() if _doubt(complies, as_drawn) < doubt)
+    return tuple(name for name in helping if _doubt(best, halved[name]) >= doubt)
+
+
+def _doubt(these: BoolArray, those: BoolArray) -> float:
+    """Return how likely chance alone lets as many more of the same samples comply [-], by McNemar's test."""
+    gained, lost = (int(np.count_nonzero(one & ~other)) for one, other in ((these, those), (those, these)))
+    if gained == 0:
+        return 1.0
+    return float(binomtest(gained, gained + lost, alternative="greater").pvalue)
 
 
 def _worst_corner(

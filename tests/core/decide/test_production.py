@@ -8,7 +8,7 @@ import pytest
 import trackig_core as tig
 from tests.core.decide.test_feasible import limits_around
 from tests.core.frequency_domain.test_batch import CURVE
-from trackig_core.decide.production import tolerance
+from trackig_core.decide.production import _helpful, tolerance
 from trackig_core.decide.sensitivities import indices_of, sensitivity, sobol
 from trackig_core.decide.tolerances import Normal, Uniform, drawn_shares, make_factors
 from trackig_core.decide.words import change_words
@@ -86,6 +86,46 @@ def test_what_to_tighten_is_what_helps_most_when_tightened(answer, specification
     assert str(answer).endswith(f"tighten the {answer.tighten_first.replace('_', ' ')} first.")
 
 
+@pytest.mark.parametrize(("spare", "helpful"), [(0.5, ("boot_stiffness",)), (0.001, ()), (-8.0, ())])
+def test_nothing_is_to_be_tightened_where_that_lets_no_more_comply(spare, helpful):
+    """Half of a production complies whose design just does, however little scatters."""
+    level = tig.solve(BLOCK, "exact").insertion_gain[tig.BAND_LABELS.index("63")]
+    limit = tig.Specification([(63, float(level) + spare)])
+    scatters = {"boot_stiffness": 0.15, "pad_loss_factor": 0.2, "block_mass": 0.02}
+    found = tolerance(BLOCK, limit, scatters, samples=2048)
+    assert found.helpful == helpful
+    assert found.tighten_first == (helpful[0] if helpful else None)
+    assert found.design_complies == (spare > 0)
+    expected = {
+        0.5: "; tighten the boot stiffness first.",
+        0.001: ", and no more whichever scatter is halved.",
+        -8.0: ", nor does the design.",
+    }
+    assert str(found).endswith(f" complies{expected[spare]}")
+
+
+def test_no_advice_is_given_to_a_design_that_itself_fails():
+    """What scatters lets some of it comply, and the less it scatters, the fewer."""
+    level = tig.solve(BLOCK, "exact").insertion_gain[tig.BAND_LABELS.index("63")]
+    found = tolerance(BLOCK, tig.Specification([(63, float(level) - 0.5)]), TOLERANCES, samples=2048)
+    assert 0 < found.tightened["boot_stiffness"] < found.probability < 0.5
+    assert not found.design_complies
+    assert str(found).endswith(" complies; the design as stated does not.")
+
+
+def test_what_helps_as_much_as_the_best_is_named_beside_it():
+    drawn = np.arange(1000) < 800
+    best, close, less = (np.arange(1000) < 800 + gain for gain in (100, 99, 40))
+    close[0] = False
+    worse = np.arange(1000) < 700
+    named = _helpful(drawn, {"best": best, "close": close, "less": less, "same": drawn, "worse": worse})
+    assert named == ("best", "close")
+    # three more of a thousand may be chance, nine are not
+    for gain, expected in ((3, ()), (9, ("one",))):
+        assert _helpful(drawn, {"one": np.arange(1000) < 800 + gain}) == expected
+    assert _helpful(drawn, {}) == ()
+
+
 def test_the_same_seed_gives_the_same_figures_and_another_gives_others(answer, specification):
     again = tolerance(BLOCK, specification, TOLERANCES, samples=4096, seed=7)
     other = tolerance(BLOCK, specification, TOLERANCES, samples=4096, seed=8)
@@ -104,7 +144,7 @@ def test_all_complies_and_nothing_does():
     assert never.probability == 0
     # what helps nothing is no advice
     assert never.tighten_first is None
-    assert str(never) == "None of production (0.0–1.9 %) complies, whichever scatter is halved."
+    assert str(never) == "None of production (0.0–1.9 %) complies, nor does the design."
 
 
 def test_a_deflection_limit_counts():
