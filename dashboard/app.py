@@ -53,8 +53,8 @@ SUBTITLE = "insertion gain of railway track supports, after Thornely-Taylor, Bew
 
 CONNECTION_LOST = (
     "The connection to the server is lost. The design, the pins, all else that a study holds and what stands "
-    "in boxes come back with the server. What you change until then does not, nor do answers that were not "
-    "kept."
+    "in the boxes of Decide and of the report come back with the server. What you change until then does "
+    "not, nor do answers that were not kept."
 )
 
 log = logging.getLogger(__name__)

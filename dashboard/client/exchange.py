@@ -187,8 +187,9 @@ class Exchange(Scripted):
     def handle_message(self, message):
         """Do what the browser asks for."""
         match message:
-            case {"kind": "restore", "data": str(data), "typed": str(typed)}:
-                self._restore(data, typed)
+            case {"kind": "restore", "data": str(data)}:
+                typed = message.get("typed")
+                self._restore(data, typed if isinstance(typed, str) else "")
             case {"kind": "recalled", "data": str(data)}:
                 self._recall(data)
             case {"kind": "copying"} if not self._copying:

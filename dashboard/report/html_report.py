@@ -150,11 +150,19 @@ def html_report(study, summaries, *, date, version, pages=None, left_out=None, p
         sources=_sources(results, base, study.source),
         fidelities=formats.fidelities_text(each.summary.solution.fidelity for each in results),
         notes=[(each.name, each.summary.solution.notes) for each in results if each.summary.solution.notes],
-        answers=[(each, *question_lines(each), (pages or {}).get(each.digest)) for each in study.answers],
+        answers=[_answer(results, each, (pages or {}).get(each.digest)) for each in study.answers],
         ladder=None if left_out is None else _ladder(left_out, every[0].name),
         file=study.to_toml(),
         theme=theme,
     )
+
+
+def _answer(results, answer, page):
+    """Return an answer, its title, what was asked and of which design, a line of words each, and its page."""
+    title, lines = question_lines(answer)
+    names = [each.name for each in results if each.design == answer.question.design]
+    whose = f"About “{names[0]}”." if names else "About a design that is none of this report."
+    return answer, title, [whose, *lines], page
 
 
 def in_force(study):

@@ -72,14 +72,27 @@ def is_on_slider(name, value):
     return field.low <= shown <= field.high and to_si(name, shown) == value
 
 
-def six_figures_of(design):
-    """Return a design whose numbers have six figures, as sliders have: one that was found, not given."""
+def six_figures_of(design, given):
+    """Return a design that was found for another, with six figures in what was found, as sliders have.
+
+    Parameters
+    ----------
+    design : trackig_core.TrackDesign
+        What was found.
+    given : trackig_core.TrackDesign
+        The design from which that departed: what is still as there was given, and has all its figures.
+
+    Returns
+    -------
+    trackig_core.TrackDesign
+        The design.
+    """
     numbers = {name: design.value(name) for name in ASKED_FIELDS}
     return design.replace(
         **{
             name: ASKED_FIELDS[name].to_si(ASKED_FIELDS[name].to_display(value))
             for name, value in numbers.items()
-            if isinstance(value, float)
+            if isinstance(value, float) and value != given.value(name)
         }
     )
 

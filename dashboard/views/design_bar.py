@@ -99,7 +99,8 @@ class DesignBar(Viewer):
 
 
 SINCE_LOADED = (
-    ". Loading the page anew keeps all that a study holds and what stands in boxes, and forgets the steps."
+    ". Loading the page anew keeps all that a study holds, and what stands in the boxes of Decide and of the "
+    "report; it forgets the steps."
 )
 """What of a session outlives a page: its state, which the browser remembers, and not how it came about."""
 

@@ -201,7 +201,7 @@ def test_the_status_line_keeps_the_focus_when_it_says_something_new(dashboard):
 def test_a_reload_keeps_what_is_there_and_says_that_it_forgets_the_steps(dashboard):
     undo = dashboard.get_by_role(
         "button",
-        name="Undo (Ctrl+Z). Loading the page anew keeps all that a study holds and what stands in boxes",
+        name="Undo (Ctrl+Z). Loading the page anew keeps all that a study holds, and what",
     )
     mass = dashboard.get_by_role("textbox", name="Block mass, kg: type a number")
     mass.fill("107")

@@ -20,7 +20,7 @@ from trackig_core.arrays import AnyArray, BoolArray, IntArray, RealArray
 from trackig_core.decide.numbers import single_numbers
 from trackig_core.decide.requirements import DEFLECTION, Requirements
 from trackig_core.decide.solving import How, solve_designs
-from trackig_core.decide.words import spoken
+from trackig_core.decide.words import away, spoken
 from trackig_core.levels.specification import Specification
 from trackig_core.names import brief
 from trackig_core.track.design import TrackDesign
@@ -161,7 +161,7 @@ class FeasibleRanges(Mapping[str, Intervals]):
         words = []
         if self.governed_by != DEFLECTION:
             side = "within" if self.margin >= 0 else "beyond"
-            words.append(f"{abs(self.margin):.1f} dB {side} the limit at {self.governed_by} Hz")
+            words.append(f"{away(self.margin)} {side} the limit at {self.governed_by} Hz")
         if self.deflection_limit is not None:
             sinks = f"{1e3 * self.deflection:.2f} of {1e3 * self.deflection_limit:.2f} mm"
             words.append(f"its rail sinking {sinks}")

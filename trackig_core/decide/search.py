@@ -20,7 +20,7 @@ from trackig_core.decide.numbers import is_logarithmic, single_numbers
 from trackig_core.decide.requirements import DEFLECTION, MARGIN, UNITS, Requirements
 from trackig_core.decide.solving import How, joined, solve_designs
 from trackig_core.decide.tolerances import drawn_shares
-from trackig_core.decide.words import in_unit, spoken
+from trackig_core.decide.words import away, in_unit, spoken
 from trackig_core.frequency_domain.batch import BatchSolution
 from trackig_core.levels.source import SourceSpectrum
 from trackig_core.levels.specification import Specification
@@ -143,7 +143,7 @@ class FoundDesigns:
             by, miss = self.in_the_way, -float(self.slack[self.closest])
             if by == DEFLECTION:
                 return f"No design complies; the closest sinks {10 ** (miss / 20) - 1:.0%} more than allowed."
-            return f"No design complies; the closest misses the limit at {by} Hz by {miss:.1f} dB."
+            return f"No design complies; the closest misses the limit at {by} Hz by {away(miss)}."
         best = zip(self.objectives, self.values[self.front].T, strict=True)
         ends = (f"{spoken(name)} {_span(name, values)}" for name, values in best)
         unlimited = self.unlimited and f" {self.unlimited}"

@@ -24,6 +24,11 @@ def percent(share: float) -> str:
     return f"{100 * share:.1f} %"
 
 
+def away(margin: float) -> str:
+    """Return how far a level is from its limit [dB], on either side of it: one decimal, never none."""
+    return "under 0.1 dB" if 0 < abs(margin) < 0.05 else f"{abs(margin):.1f} dB"
+
+
 def how_much(share: float) -> str:
     """Return a share [-] of something that follows: ``"none"``, ``"all"`` or as :func:`percent` says it."""
     return {0.0: "none", 1.0: "all"}.get(share) or percent(share)

@@ -46,7 +46,8 @@ class Asked:
     before = ""
     """What to do for an answer, said where it will be."""
     ages = False
-    """Whether the answer stays as it is when the design changes of which it was asked, and says so."""
+    """Whether the answer stays as it is when the design or the boxes change of which it was asked, and says
+    so."""
 
     def __init__(self, snapshot, exchange, inquiry=None):
         self.snapshot, self._exchange = snapshot, exchange
@@ -68,7 +69,7 @@ class Asked:
             label="Keep the answer", icon="bookmark_add", on_click=self._keep, **SMALL_BUTTON
         )
         self.export = pmui.Button(label="CSV", icon="download", on_click=self._export, **SMALL_BUTTON)
-        self._is_dated = False
+        self._is_dated, self.drawn = False, ()
         self.answered_row = pn.Row(self.keep, self.export, visible=False, margin=(0, 12))
         self.inquiry.param.watch(self._show_state, ["busy", "progress", "problem"])
         # figures may change only when the session's document may
@@ -119,32 +120,38 @@ class Asked:
         result = self.inquiry.result
         self.answered_row.visible = result is not None
         if result is not None:
-            self._is_dated = self._is_of_another()
+            self._date(self._is_of_another())
             self._say_answer(result)
             self.show(result)
 
     def note_age(self):
-        """Say whether the answer is still that of the design and of what this is held against."""
+        """Say whether the answer is still that of the design, of the boxes and of the specification."""
         result, busy = self.inquiry.result, self.inquiry.busy
         if result is not None and not busy and self._is_of_another() != self._is_dated:
-            self._is_dated = not self._is_dated
+            self._date(not self._is_dated)
             self._say_answer(result)
+
+    def _date(self, is_dated):
+        self._is_dated = is_dated
+        for part in self.drawn:
+            part.styles = theme.STALE if is_dated else theme.FRESH
 
     def _is_of_another(self):
         """Return whether the answer ages, and would be one to another question if it were asked for now."""
         answered = self.inquiry.answered
         if not self.ages or answered is None:
             return False
-        settings, design = answered.settings, self.assessment.current.design
+        varied = {name: answered.design.value(name) for name in self.varied(answered.settings)}
         try:
-            design = design.replace(**{name: answered.design.value(name) for name in self.varied(settings)})
-        except tig.DesignError:
+            settings, design = self.settings(), self.assessment.current.design.replace(**varied)
+        except ValueError:
+            # what stands there now cannot be asked
             return True
         return answered != question_of(self.kind, settings, self.assessment, self.definition, design)
 
     def _say_answer(self, result):
         if self._is_dated:
-            again = f"Press “{self.button.label}” for the design as it is."
+            again = f"Press “{self.button.label}” to ask again."
             self._say(f"Before the last changes: {self.words(result)}", "note", again)
             return
         question = self.inquiry.answered

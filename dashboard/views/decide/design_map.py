@@ -50,6 +50,7 @@ class Map(Asked):
         )
         self.map = MapFigure(self._tapped)
         self.place = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.drawn = (self.place,)
         self.under_cross = pn.pane.HTML(
             "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
         )
@@ -60,9 +61,14 @@ class Map(Asked):
         snapshot.boxes.keep(across=self.x, up=self.y, map_figure=self.figure)
 
     def offer(self):
-        """Offer the numbers that the current design has."""
-        for box in (self.x, self.y):
-            offer(box, number_options(self.assessment.current.design))
+        """Offer the numbers that the current design has; two axes are never given the same."""
+        options = number_options(self.assessment.current.design)
+        offer(self.x, options)
+        there = list(options.values())
+        if self.y.value not in there:
+            self.y.param.update(options=options, value=next(each for each in there if each != self.x.value))
+        else:
+            offer(self.y, options)
 
     def ask_again(self, *_):
         """Draw another figure of a map that was asked for."""
@@ -71,6 +77,8 @@ class Map(Asked):
 
     def settings(self):
         """Return what is asked about the current design."""
+        if self.x.value == self.y.value:
+            raise ValueError(f"Across and up are both {field_label(self.x.value)}: choose two numbers.")
         specification = self.assessment.in_force
         if specification is None and self.figure.value == "margin":
             raise ValueError(what_is_missing(self.assessment))
@@ -123,7 +131,7 @@ class Map(Asked):
         column, row = place
         x, y = float(result.x[column]), float(result.y[row])
         if key == "Enter":
-            self._take(result.design_at(x, y))
+            self._take(result.design_at(x, y), result.design)
         name, values = next(iter(result.figures.items()))
         words, scale = FIGURE_WORDS.get(name, (f"Insertion gain at {name} Hz, dB", 1.0))
         quantity, _, unit = words.partition(", ")
@@ -139,7 +147,7 @@ class Map(Asked):
         result = self.inquiry.result
         if result is not None and x is not None and y is not None:
             values = (ASKED_FIELDS[result.x_field].factor * x, ASKED_FIELDS[result.y_field].factor * y)
-            self._take(result.design_at(*values))
+            self._take(result.design_at(*values), result.design)
 
     def build(self):
         """Return what is put on the page."""

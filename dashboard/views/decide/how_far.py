@@ -11,6 +11,7 @@ from dashboard.session.answers import with_unit
 from dashboard.views.components import caption, panel
 from dashboard.views.decide.asked import Asked, scrolled, what_is_missing
 from dashboard.views.decide.inputs import given_box
+from trackig_core.decide.words import away
 
 
 class HowFar(Asked):
@@ -22,6 +23,7 @@ class HowFar(Asked):
         super().__init__(snapshot, exchange, feasibility)
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
         self.given = given_box(self._look_at_given)
+        snapshot.boxes.keep(range_of_vehicle_and_site=self.given)
         feasibility.param.watch(self._dim, "stale")
         self._answered()
 
@@ -43,7 +45,7 @@ class HowFar(Asked):
         side = "within" if result.margin >= 0 else "beyond"
         said = f"The design {verdict}"
         if result.governed_by != "deflection":
-            said += f", {abs(result.margin):.1f} dB {side} the limit at {result.governed_by} Hz"
+            said += f", {away(result.margin)} {side} the limit at {result.governed_by} Hz"
         if result.deflection_limit is not None:
             said += (
                 f", its rail sinking {1e3 * result.deflection:.2f} of {1e3 * result.deflection_limit:.2f} mm"

@@ -5,6 +5,7 @@ import html
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
+import param
 
 import trackig_core as tig
 from dashboard import formats, theme
@@ -26,6 +27,17 @@ USUAL_TOLERANCES = {
 """Tolerances at first [%]: generic ones, to be replaced by those of the supplier."""
 
 
+MOST_PASTED = 5000
+"""Characters of a table of specimens that a browser may paste [-]."""
+
+
+class InUse(param.Parameterized):
+    """The table of specimens that is in use, as it was pasted; empty if none is."""
+
+    value = param.String(default="")
+    max_length = MOST_PASTED
+
+
 class HowSure(Asked):
     """How sure the design is to comply when production scatters."""
 
@@ -38,7 +50,7 @@ class HowSure(Asked):
 
     def __init__(self, snapshot, exchange, production):
         super().__init__(snapshot, exchange)
-        self._production, self._specimens = production, {}
+        self._production, self._specimens, self.in_use = production, {}, InUse()
         self.tolerances = ShareBoxes(USUAL_TOLERANCES, 0.0, exchange)
         self.shape = choice(
             label="Production",
@@ -59,6 +71,7 @@ class HowSure(Asked):
         self._pane = bokeh_pane(self.percentiles.model)
         self.place = pn.Column(sizing_mode="stretch_width", margin=0)
         self.table = pn.pane.HTML("", stylesheets=[theme.TABLE_CSS], sizing_mode="stretch_width", margin=0)
+        self.drawn = (self.place, self.table)
         self.button.label = "How sure?"
         self.in_explore = pmui.Checkbox(
             label="Draw 5 to 95 % of production in Explore too", size="small", margin=(0, 12, 0, 8)
@@ -68,6 +81,7 @@ class HowSure(Asked):
             placeholder="boot stiffness [kN/mm]; boot loss factor",
             rows=2,
             max_rows=6,
+            max_length=MOST_PASTED,
             size="small",
             sizing_mode="stretch_width",
             margin=(6, 12, 0, 12),
@@ -80,21 +94,38 @@ class HowSure(Asked):
             "", stylesheets=[theme.ANSWER_CSS], sizing_mode="stretch_width", margin=(0, 12)
         )
         self.in_explore.param.watch(self._draw_in_explore, "value")
+        self.in_use.param.watch(self._use, "value")
         snapshot.boxes.keep(
             shape=self.shape,
             samples=self.samples,
             seed=self.seed,
             specimens=self.pasted,
+            specimens_in_use=self.in_use,
             in_explore=self.in_explore,
         )
         self.tolerances.keep(snapshot.boxes, "tolerance")
 
     def _read(self, *_):
         """Take the table that was pasted in the place of the tolerances of what it holds."""
+        table = self.pasted.value or ""
         try:
-            self._specimens, notes = read_samples(self.pasted.value or "")
+            read_samples(table)
         except SamplesError as problem:
             self._tell(str(problem), "problem")
+        else:
+            self.in_use.value = table
+            # also where it is the same: what was said of another table goes away
+            self._use()
+
+    def _use(self, *_):
+        """Use the specimens of the table that is in use, as it was read or came back with the page."""
+        try:
+            self._specimens, notes = read_samples(self.in_use.value)
+        except SamplesError:
+            # none is in use, or the browser's memory holds none
+            self._specimens = {}
+            self._tell("", "note")
+            self._show_boxes()
             return
         count = len(next(iter(self._specimens.values())))
         what = " and ".join(FIELDS[name].label.lower() for name in self._specimens)
@@ -102,9 +133,7 @@ class HowSure(Asked):
         self._show_boxes()
 
     def _forget(self, *_):
-        self._specimens = {}
-        self._tell("", "note")
-        self._show_boxes()
+        self.in_use.value = ""
 
     def _show_boxes(self):
         self.forget.visible = bool(self._specimens)

@@ -25,7 +25,7 @@ from dashboard.views.decide.inputs import (
     seed_box,
     titled,
 )
-from trackig_core.decide.words import sentence
+from trackig_core.decide.words import away, sentence
 from trackig_core.names import LONGEST_NAME
 from trackig_core.track.fields import DEFAULT_WHEEL_LOAD
 
@@ -120,6 +120,7 @@ class Search(Asked):
         objectives = with_legend(self.cloud.objectives, self.cloud.legend)
         self._pictures = beside(objectives, self.cloud.fields, self.cloud.gains)
         self.place = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.drawn = (self.place,)
         for figure in (self.cloud.objectives, self.cloud.fields):
             exchange.on_key(figure.name, self._key)
         self.against.param.watch(self._offer_prices, "value")
@@ -135,6 +136,7 @@ class Search(Asked):
             against=self.against,
             sinks_at_most=self.deflection,
             search_seed=self.seed,
+            name_of_found=self.pin_name,
             **{f"price of {name}": box for name, box in self.prices.items()},
         )
 
@@ -229,7 +231,7 @@ class Search(Asked):
             if found.in_the_way == "deflection":
                 by = f"sinks {10 ** (miss / 20) - 1:.0%} more than allowed"
             else:
-                by = f"misses the limit at {found.in_the_way} Hz by {miss:.1f} dB"
+                by = f"misses the limit at {found.in_the_way} Hz by {away(miss)}"
             return f"None of {tried} complies; the closest {by}."
         return " ".join(filter(None, (f"{found.summary}.", found.unlimited)))
 
@@ -252,10 +254,10 @@ class Search(Asked):
         return self._found().many.design(self._chosen)
 
     def _take_chosen(self, *_):
-        self._take(self._design())
+        self._take(self._design(), self._found().design)
 
     def _pin_chosen(self, *_):
-        self._pin(self._design(), self.pin_name.value.strip() or "Found")
+        self._pin(self._design(), self._found().design, self.pin_name.value.strip() or "Found")
 
     def build(self):
         """Return what is put on the page."""

@@ -54,6 +54,7 @@ class Decide(Tab):
         self.search = Search(snapshot, exchange, self._take, self._pin, shelf)
         self.kept = KeptAnswers(snapshot.answers, exchange)
         snapshot.assessment.param.watch(self.refresh, "results")
+        snapshot.boxes.param.watch(self._note_ages, "typed")
 
     def refresh(self, *_):
         """Offer what the current design has, and answer for it what takes milliseconds."""
@@ -62,16 +63,19 @@ class Decide(Tab):
                 part.offer()
             self._boxes.put_waiting()
             self.what_matters.ask()
-            for part in (self.what_matters, self.how_sure, self.what_scatters, self.map, self.search):
-                part.note_age()
+            self._note_ages()
 
-    def _take(self, design):
-        self._inputs.take(values_of(six_figures_of(design)))
+    def _note_ages(self, *_):
+        for part in (self.what_matters, self.how_sure, self.what_scatters, self.map, self.search):
+            part.note_age()
 
-    def _pin(self, design, name):
+    def _take(self, design, given):
+        self._inputs.take(values_of(six_figures_of(design, given)))
+
+    def _pin(self, design, given, name):
         try:
             # as the sliders show it: a study of it opens as it was saved
-            pin = self._pins.add(six_figures_of(design), name, self._inputs.preset)
+            pin = self._pins.add(six_figures_of(design, given), name, self._inputs.preset)
         except PinError as problem:
             notify("warning", str(problem))
         else:

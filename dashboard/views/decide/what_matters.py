@@ -33,7 +33,7 @@ class WhatMatters(Asked):
         self.change.param.watch(self._change_all, "value")
         self.one_by_one.param.watch(self._offer_boxes, "value")
         self.figure.param.watch(self._draw, "value")
-        snapshot.boxes.keep(change=self.change, one_by_one=self.one_by_one)
+        snapshot.boxes.keep(change=self.change, one_by_one=self.one_by_one, change_of=self.figure)
         self.changes_of.keep(snapshot.boxes, "change")
 
     def _change_all(self, event):
@@ -59,6 +59,7 @@ class WhatMatters(Asked):
         options = {FIGURE_WORDS[name][0]: name for name in result.figures}
         if list(self.figure.options) != list(options):
             self.figure.param.update(options=options, value=next(iter(options.values())))
+            self.snapshot.boxes.put_waiting()
         labels = list(map(starred, result.fields))
         self.changes.show(labels, result.bands[:, 1])
         ranked = result.ranked(self.figure.value)

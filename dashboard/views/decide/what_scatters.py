@@ -30,6 +30,7 @@ class WhatScatters(Asked):
         super().__init__(snapshot, exchange)
         self._how_sure = how_sure
         self.table = pn.pane.HTML("", stylesheets=[theme.SHARES_CSS], sizing_mode="stretch_width", margin=0)
+        self.drawn = (self.table,)
         self.button.label = "Which tolerance?"
 
     def settings(self):

@@ -225,3 +225,17 @@ def test_every_other_question_takes_a_limit_of_deflection_alone():
     found = tig.decide.find(design, alone, ranges, population=16, generations=2, seed=1)
     assert found.front.size
     assert tig.decide.sensitivity(design, specification=alone)
+
+
+@pytest.mark.parametrize(
+    ("spare", "words"),
+    [
+        (0.004, "complies, under 0.1 dB within"),
+        (-0.004, "fails, under 0.1 dB beyond"),
+        (0.06, "complies, 0.1 dB within"),
+    ],
+)
+def test_who_just_fails_is_not_said_to_fail_by_nothing(spare, words):
+    level = tig.solve_many(BLOCK).insertion_gain[0, tig.BAND_LABELS.index("63")]
+    found = feasible_ranges(BLOCK, tig.Specification([(63, float(level) + spare)]), fields=["block_mass"])
+    assert f"{words} the limit at 63 Hz" in str(found)

@@ -113,6 +113,17 @@ def test_an_answer_that_was_opened_and_not_asked_again_says_so(summary):
     assert "press “Ask again” on the tab Decide" not in text
 
 
+def test_an_answer_says_which_design_of_the_report_it_is_about(summary):
+    answer, _ = asked("range")
+    of_another = dataclasses.replace(
+        answer, question=dataclasses.replace(answer.question, design=BLOCK.replace(block_mass=123.0))
+    )
+    assert "About “This design”." in report(summary, (answer,))
+    text = report(summary, (of_another,))
+    assert "About a design that is none of this report." in text
+    assert "About “" not in text
+
+
 def test_what_was_measured_of_the_design_is_named_in_what_was_asked():
     curve = tig.StiffnessCurve([(1, 310.4e6, 0.151), (30, 671e6, 0.151)], preload=30e3)
     design = BLOCK.replace(pad_stiffness=curve, pad_loss_factor=None)

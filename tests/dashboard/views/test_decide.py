@@ -97,7 +97,7 @@ def test_an_answer_says_that_the_design_has_changed_and_no_longer_once_that_is_u
     before, after = session.outcome.summary, summary("slab-track")
     session.do(session.outcome.param.update, summary=after)
     assert "Before the last changes: " in view.sentence.object
-    assert f"Press “{view.button.label}” for the design as it is." in view.sentence.object
+    assert f"Press “{view.button.label}” to ask again." in view.sentence.object
     session.do(session.outcome.param.update, summary=before)
     assert view.sentence.object == answered
     session.do(session.definition.param.update, summation="coherent")
@@ -241,7 +241,7 @@ def test_a_design_that_is_taken_from_an_answer_leaves_it_as_it_is_and_another_wh
     assert session.assessment.current.design != BLOCK
     assert (design_map.sentence.object, search.sentence.object) == answered
     found = search._found()
-    session.do(session.view._take, found.many.design(int(found.front[-1])))
+    session.do(session.view._take, found.many.design(int(found.front[-1])), BLOCK)
     session.do(solve)
     assert session.assessment.current.design.rail != BLOCK.rail
     assert search.sentence.object == answered[1]
@@ -249,6 +249,62 @@ def test_a_design_that_is_taken_from_an_answer_leaves_it_as_it_is_and_another_wh
     session.inputs.wheel_mass += 1.0
     session.do(solve)
     assert "Before the last changes: " in search.sentence.object
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("how_sure", lambda view: view.how_sure.tolerances.boxes["pad_stiffness"].param.update(value="30")),
+        ("how_sure", lambda view: view.how_sure.seed.param.update(value="4")),
+        ("how_sure", lambda view: view.how_sure.seed.param.update(value="four")),
+        ("what_scatters", lambda view: view.how_sure.shape.param.update(value="normal")),
+        ("map", lambda view: view.map.x.param.update(value="pad_stiffness")),
+        ("search", lambda view: view.search.free.param.update(value=["boot_stiffness"])),
+    ],
+)
+def test_an_answer_says_that_what_was_asked_is_not_what_stands_in_the_boxes(session, name, change):
+    view = getattr(session.view, name)
+    session.view.how_sure.samples.value = 1000
+    session.do(view.ask)
+    answered = view.sentence.object
+    assert [part.styles["opacity"] for part in view.drawn] == ["1"] * len(view.drawn)
+    before = session.snapshot.boxes.typed
+    session.do(change, session.view)
+    assert "Before the last changes: " in view.sentence.object
+    assert all(float(part.styles["opacity"]) < 1 for part in view.drawn)
+    session.do(session.snapshot.boxes.put_back, before)
+    assert view.sentence.object == answered
+    assert [part.styles["opacity"] for part in view.drawn] == ["1"] * len(view.drawn)
+
+
+def test_specimens_in_use_come_back_with_the_page(session, summary, make_pictures):
+    view = session.view.how_sure
+    view.pasted.value = "boot stiffness [kN/mm]\n27\n28\n29"
+    session.do(view._read)
+    assert "production" in view.settings()
+    other = Session(summary, make_pictures, LIMITS)
+    other.do(other.snapshot.boxes.put_back, session.snapshot.boxes.typed)
+    again = other.view.how_sure
+    assert again.settings() == view.settings()
+    assert "scatter as in 3 specimens" in again.specimens.object
+    assert again.forget.visible
+    assert again.tolerances.boxes["boot_stiffness"].disabled
+    other.do(again._forget)
+    assert "production" not in again.settings()
+    assert again.pasted.value == view.pasted.value
+    other.do(other.snapshot.boxes.put_back, json.dumps({"specimens_in_use": "nonsense"}))
+    assert "production" not in again.settings()
+
+
+def test_a_map_never_has_one_number_along_both_axes(surrounded, summary):
+    view = surrounded.view.map
+    surrounded.do(surrounded.view.look, active=True)
+    view.x.value, view.y.value = "ground.stiffness", "ground.mass"
+    surrounded.do(surrounded.outcome.param.update, summary=summary("slab-track"))
+    assert view.x.value != view.y.value
+    view.y.value = view.x.value
+    surrounded.do(view.ask)
+    assert "Across and up are both pad stiffness: choose two numbers." in view.sentence.object
 
 
 def test_a_map_shows_both_edges_and_the_pins(session, summary):
@@ -748,7 +804,7 @@ def test_what_matters_about_vehicle_and_ground_is_the_library_s(surrounded):
     assert "Ground stiffness *" in view.changes.cells.data["field"]
 
 
-def test_a_map_of_a_ground_takes_its_designs(surrounded, monkeypatch):
+def test_a_map_of_a_ground_takes_its_designs(surrounded, fake_picture, monkeypatch):
     monkeypatch.setattr("dashboard.views.decide.design_map.SURROUNDED_POINTS", [5, 4])
     view = surrounded.view.map
     view.x.value, view.y.value = "ground.stiffness", "suspension.primary_damping"
@@ -767,7 +823,11 @@ def test_a_map_of_a_ground_takes_its_designs(surrounded, monkeypatch):
     taken = surrounded.inputs.to_design()
     assert taken.ground.stiffness == pytest.approx(found.x[1], rel=1e-5)
     assert taken.suspension.primary_damping == pytest.approx(found.y[2], rel=1e-5)
-    assert taken.ground.damping == pytest.approx(SPRUNG.ground.damping, rel=1e-5)
+    # what is not on the map keeps all figures of the design that was asked about, and the answer is its own
+    assert taken.ground.damping == SPRUNG.ground.damping
+    answered = view.sentence.object
+    surrounded.do(surrounded.outcome.param.update, summary=fake_picture(taken))
+    assert view.sentence.object == answered
 
 
 def test_a_ground_scatters_where_it_has_a_tolerance(surrounded):
