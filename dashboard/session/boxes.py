@@ -83,9 +83,10 @@ def _taken(box, value):
     """Return a value as a box takes it, or None if it takes no such value."""
     options = getattr(box, "options", None)
     if options is None:
-        kind = type(box.value)
-        fits = type(value) is kind and len(value) <= box.max_length if kind is str else type(value) is kind
-        return value if fits else None
+        if type(value) is not type(box.value):
+            return None
+        is_too_long = isinstance(value, str) and len(value) > box.max_length
+        return None if is_too_long else value
     there = list(options.values()) if isinstance(options, dict) else list(options)
     if isinstance(box.value, list):
         known = isinstance(value, list) and all(each in there for each in value)

@@ -64,11 +64,7 @@ class Map(Asked):
         """Offer the numbers that the current design has; two axes are never given the same."""
         options = number_options(self.assessment.current.design)
         offer(self.x, options)
-        there = list(options.values())
-        if self.y.value not in there:
-            self.y.param.update(options=options, value=next(each for each in there if each != self.x.value))
-        else:
-            offer(self.y, options)
+        offer(self.y, options, taken=self.x.value)
 
     def ask_again(self, *_):
         """Draw another figure of a map that was asked for."""

@@ -113,9 +113,10 @@ class HowSure(Asked):
         except SamplesError as problem:
             self._tell(str(problem), "problem")
         else:
+            if table == self.in_use.value:
+                # what was said of another table meanwhile goes away
+                self._use()
             self.in_use.value = table
-            # also where it is the same: what was said of another table goes away
-            self._use()
 
     def _use(self, *_):
         """Use the specimens of the table that is in use, as it was read or came back with the page."""

@@ -135,15 +135,18 @@ def given_box(changed):
     return box
 
 
-def offer(box, options):
-    """Have a box offer some options, and keep what is chosen as far as it is still among them."""
+def offer(box, options, taken=None):
+    """Have a box offer some options, and keep what is chosen as far as it is still among them.
+
+    Where it is not, the first of the options is chosen that is not taken by another box.
+    """
     if box.options == options:
         return
     there = list(options.values())
     if isinstance(box.value, list):
         value = [each for each in box.value if each in there]
     else:
-        value = box.value if box.value in there else there[0]
+        value = box.value if box.value in there else next(each for each in there if each != taken)
     box.param.update(options=options, value=value)
 
 
